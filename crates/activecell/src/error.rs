@@ -1,0 +1,113 @@
+//! The one error type of the core: what is wrong, where, and what to do about it.
+
+use crate::lattice::Cell;
+use std::fmt;
+
+/// Why the core refused a request. The names are those that the field uses (Nav2's planner errors among them).
+///
+/// ```
+/// use activecell::{Error, Lattice, Map};
+/// let error = Map::parse(Lattice::Square, "..\n.?").unwrap_err();
+/// assert_eq!(error.to_string(), "map line 2, column 2: unexpected character `?`; use `.` for free, `#` for an obstacle, letters for named cells");
+/// # assert!(matches!(error, Error::BadFormat { line: 2, column: 2, .. }));
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The map would have more cells than [`crate::MAX_CELLS`].
+    MapTooLarge {
+        /// Columns asked for.
+        width: u64,
+        /// Rows asked for.
+        height: u64,
+    },
+    /// The map has no cell.
+    EmptyMap,
+    /// A text map that cannot be read.
+    BadFormat {
+        /// Line, counted from 1.
+        line: usize,
+        /// Column, counted from 1.
+        column: usize,
+        /// What is wrong there and what would be right.
+        reason: String,
+    },
+    /// A cell that does not lie on the map.
+    OutsideMap {
+        /// The cell.
+        cell: Cell,
+        /// Columns of the map.
+        width: u32,
+        /// Rows of the map.
+        height: u32,
+    },
+    /// The start lies in an obstacle.
+    StartOccupied {
+        /// The start.
+        cell: Cell,
+        /// The free cell nearest to it, if the map has any.
+        nearest: Option<Cell>,
+    },
+    /// The target lies in an obstacle.
+    TargetOccupied {
+        /// The target.
+        cell: Cell,
+        /// The free cell nearest to it, if the map has any.
+        nearest: Option<Cell>,
+    },
+    /// Only a map of squares can be re-tiled.
+    NotSquare,
+    /// A walk was longer than its caller allowed.
+    StepLimit {
+        /// The number of steps after which it was given up.
+        steps: usize,
+    },
+    /// A number outside its range.
+    BadValue {
+        /// What the number is, with its unit.
+        name: &'static str,
+        /// The number.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::MapTooLarge { width, height } => write!(
+                f,
+                "map of {width} x {height} cells is too large: at most {} cells; choose larger cells or a part of the floor",
+                crate::map::MAX_CELLS
+            ),
+            Self::EmptyMap => write!(f, "the map has no cell; give it at least one row of `.` and `#`"),
+            Self::BadFormat { line, column, reason } => {
+                write!(f, "map line {line}, column {column}: {reason}")
+            }
+            Self::OutsideMap { cell, width, height } => write!(
+                f,
+                "cell {cell} is outside the map: x goes from 0 to {}, y from 0 (top) to {}",
+                width.saturating_sub(1),
+                height.saturating_sub(1)
+            ),
+            Self::StartOccupied { cell, nearest } => occupied(f, "start", *cell, *nearest),
+            Self::TargetOccupied { cell, nearest } => occupied(f, "target", *cell, *nearest),
+            Self::NotSquare => write!(f, "only a map of squares can be re-tiled; read it as squares first"),
+            Self::StepLimit { steps } => {
+                write!(f, "gave up after {steps} steps; raise the limit, or use the rule `wave`")
+            }
+            Self::BadValue { name, value, allowed } => write!(f, "{name} is {value}; it must be {allowed}"),
+        }
+    }
+}
+
+fn occupied(f: &mut fmt::Formatter<'_>, role: &str, cell: Cell, nearest: Option<Cell>) -> fmt::Result {
+    write!(f, "the {role} {cell} lies in an obstacle; ")?;
+    match nearest {
+        Some(free) => write!(f, "the nearest free cell is {free}"),
+        None => write!(f, "the map has no free cell"),
+    }
+}
+
+impl std::error::Error for Error {}
