@@ -1,1 +1,35 @@
-//! Files of activecell.
+//! Files of activecell: bytes ⇄ values.
+//!
+//! | module | files |
+//! |---|---|
+//! | [`ros`] | ROS `map_server`: a YAML file and an image |
+//! | [`movingai`] | `MovingAI` benchmarks: `.map` and `.scen` |
+//! | [`raster`] | images: PNG, PGM, PPM |
+//! | [`robot`] | robots: TOML |
+//! | [`run`] | routes and runs: JSON |
+//! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
+//!
+//! Everything but [`files`] works on bytes in memory. Input is never trusted: sizes that a header declares are
+//! compared with the bytes at hand before memory is taken, and every [`Error`] is one line that says where,
+//! what is wrong, and what to do.
+//!
+//! ```
+//! use activecell_formats::files::{self, ReadOptions};
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("office.yaml");
+//! # let map = activecell::Map::parse(activecell::Lattice::Square, "..#\n#..").map_err(activecell_formats::Error::from)?;
+//! files::write_map(&path, &map)?; // office.pgm and office.yaml
+//! let (same, _format) = files::read_map(&path, &ReadOptions::default())?;
+//! assert_eq!(same, map);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+pub mod files;
+pub mod movingai;
+pub mod raster;
+pub mod robot;
+pub mod ros;
+pub mod run;
+
+pub use error::{Error, Place};

@@ -1,1 +1,169 @@
-//! Pictures of activecell.
+//! Pictures of activecell: maps and routes as SVG, PNG, animated GIF, and in a terminal.
+//!
+//! ```
+//! use activecell::{Cell, Lattice, Map};
+//! use activecell_picture::{RoutePicture, svg};
+//!
+//! let map = Map::parse(Lattice::Square, "...\n.#.\n...")?;
+//! let cells = [Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0), Cell::new(2, 1)];
+//! let picture = RoutePicture {
+//!     map: &map,
+//!     title: "a small floor",
+//!     from: cells[0],
+//!     to: cells[3],
+//!     cells: &cells,
+//!     turns: &[cells[2]],
+//!     cycle: &[],
+//!     wave: None,
+//! };
+//! assert!(svg(&picture).starts_with("<svg"));
+//! # Ok::<(), activecell::Error>(())
+//! ```
+//!
+//! # Large maps
+//!
+//! A still picture gives the longer side of the map about 1100 pixels, an animation about 690. Maps of more
+//! than 2²² cells, or with cells below a quarter of a pixel, are looked at in blocks of 2ᵏ × 2ᵏ cells before they
+//! are drawn: a block is an obstacle if at least half of its cells are. Memory and time stay bounded: a second
+//! or two for the largest map. The route is never sampled away.
+//!
+//! The same input gives the same bytes.
+
+mod animation;
+mod colour;
+mod figure;
+mod font;
+mod layout;
+mod legend;
+mod outline;
+mod palette;
+mod raster;
+mod route;
+mod sample;
+mod scene;
+mod svg;
+mod terminal;
+
+use activecell::{Cell, Map};
+use figure::Figure;
+
+/// A route on a map, to be drawn.
+///
+/// Cells outside the map are left out.
+#[derive(Debug, Clone, Copy)]
+pub struct RoutePicture<'a> {
+    /// The map.
+    pub map: &'a Map,
+    /// The line above the map; shortened with `…` if it is too long. Control characters are left out.
+    pub title: &'a str,
+    /// Where the robot starts, marked S.
+    pub from: Cell,
+    /// Where it is to go, marked F.
+    pub to: Cell,
+    /// Every cell of the route from the start on. It may visit a cell twice and need not reach the target.
+    pub cells: &'a [Cell],
+    /// The cells in which the robot turns.
+    pub turns: &'a [Cell],
+    /// The cells in which the robot circles for ever, in order; empty if it does not.
+    pub cycle: &'a [Cell],
+    /// The wave, if the route was found with one: for each cell, in the order of [`Map::index`], its steps from
+    /// the target; `None` where the wave did not come.
+    pub wave: Option<&'a [Option<u32>]>,
+}
+
+/// Why a picture could not be made.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// There is no memory for a canvas of this size.
+    #[error("a picture of {width} x {height} pixels does not fit into memory; ask for SVG")]
+    Canvas {
+        /// Width in pixels.
+        width: u32,
+        /// Height in pixels.
+        height: u32,
+    },
+    /// The encoder of the file format refused the picture.
+    #[error("the picture cannot be encoded: {0}")]
+    Encoding(String),
+}
+
+/// The route as an SVG document.
+pub fn svg(picture: &RoutePicture<'_>) -> String {
+    svg::write(&still(picture))
+}
+
+/// The route as a PNG file.
+///
+/// # Errors
+/// [`Error::Canvas`], [`Error::Encoding`].
+///
+/// ```
+/// # use activecell::{Cell, Lattice, Map};
+/// # use activecell_picture::{RoutePicture, png};
+/// # let map = Map::parse(Lattice::Hex, "...\n.#.\n...")?;
+/// # let picture = RoutePicture { map: &map, title: "", from: Cell::new(0, 0), to: Cell::new(2, 2),
+/// #     cells: &[], turns: &[], cycle: &[], wave: None };
+/// assert!(png(&picture)?.starts_with(b"\x89PNG"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn png(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
+    encode_png(&still(picture))
+}
+
+/// The route as an animated GIF file: the wave spreads from the target, then the active cell moves along the
+/// route; after two seconds it begins again. Without a wave only the active cell moves.
+///
+/// # Errors
+/// [`Error::Canvas`], [`Error::Encoding`].
+pub fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
+    animation::gif(picture)
+}
+
+/// A map alone as an SVG document, with a scale bar.
+///
+/// ```
+/// # use activecell::{Lattice, Map};
+/// let map = Map::parse(Lattice::Hex, "...\n.#.\n...")?;
+/// assert!(activecell_picture::map_svg(&map, "floor <1>").contains("floor &lt;1&gt;"));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn map_svg(map: &Map, title: &str) -> String {
+    svg::write(&Figure::new(map, title, layout::STILL).still(None))
+}
+
+/// A map alone as a PNG file, with a scale bar.
+///
+/// # Errors
+/// [`Error::Canvas`], [`Error::Encoding`].
+pub fn map_png(map: &Map, title: &str) -> Result<Vec<u8>, Error> {
+    encode_png(&Figure::new(map, title, layout::STILL).still(None))
+}
+
+/// The route as text for a terminal, at most `columns` wide and `rows` high; lines end in LF.
+///
+/// A map that fits is drawn with two characters a cell, a larger one with half blocks `▀`, each the upper and
+/// the lower of two blocks of cells. A block is an obstacle if at least half of its cells are, but the route,
+/// the start and the target show in any case. With `colour` the text holds 24-bit ANSI colour codes.
+///
+/// ```
+/// # use activecell::{Cell, Lattice, Map};
+/// # use activecell_picture::{RoutePicture, terminal};
+/// let map = Map::parse(Lattice::Square, "...\n.#.")?;
+/// let cells = [Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0), Cell::new(2, 1)];
+/// let picture = RoutePicture { map: &map, title: "", from: cells[0], to: cells[3], cells: &cells,
+///     turns: &[], cycle: &[], wave: None };
+/// assert_eq!(terminal(&picture, 80, 24, false), " S → ↓\n .## F\n");
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn terminal(picture: &RoutePicture<'_>, columns: usize, rows: usize, colour: bool) -> String {
+    terminal::draw(picture, columns, rows, colour)
+}
+
+fn still(picture: &RoutePicture<'_>) -> scene::Scene {
+    Figure::new(picture.map, picture.title, layout::STILL).still(Some(picture))
+}
+
+fn encode_png(scene: &scene::Scene) -> Result<Vec<u8>, Error> {
+    raster::draw(scene)?.encode_png().map_err(|error| Error::Encoding(error.to_string()))
+}

@@ -14,12 +14,14 @@ use std::fmt;
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
-    /// The map would have more cells than [`crate::MAX_CELLS`].
+    /// The map would have more cells than a map may have.
     MapTooLarge {
         /// Columns asked for.
         width: u64,
         /// Rows asked for.
         height: u64,
+        /// The most cells that a map may have.
+        limit: u64,
     },
     /// The map has no cell.
     EmptyMap,
@@ -76,10 +78,9 @@ pub enum Error {
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::MapTooLarge { width, height } => write!(
+            Self::MapTooLarge { width, height, limit } => write!(
                 f,
-                "map of {width} x {height} cells is too large: at most {} cells; choose larger cells or a part of the floor",
-                crate::map::MAX_CELLS
+                "map of {width} x {height} cells is too large: at most {limit} cells; choose larger cells or a part of the floor"
             ),
             Self::EmptyMap => write!(f, "the map has no cell; give it at least one row of `.` and `#`"),
             Self::BadFormat { line, column, reason } => {

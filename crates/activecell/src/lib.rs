@@ -1,11 +1,48 @@
 //! Robot navigation by cellular automata with active cells.
+//!
+//! A robot carries a map of cells, square or hexagonal. One cell is *active*: the robot is there. The same local
+//! rule in every cell decides which neighbour becomes active next. The route becomes a program of straight runs,
+//! counted in wheel revolutions, and turns.
+//!
+//! Every stage is an immutable value made from the one before it:
+//!
+//! ```text
+//! Map ──wave──▶ Field ──route──▶ Route ──program──▶ Program ──replay──▶ points in metres
+//! ```
+//!
+//! ```
+//! use activecell::{Lattice, Map, Robot, Rule, check_program, check_route};
+//!
+//! let map = Map::parse(Lattice::Square, "S.#.\n..#.\n...F")?;
+//! let (from, to) = (map.mark('S').unwrap(), map.mark('F').unwrap());
+//!
+//! let route = map.route(Rule::Wave, from, to, 1_000_000)?;
+//! assert_eq!((route.steps(), route.turns().len()), (5, 1));
+//! assert!(check_route(&map, route.cells(), from, to).is_ok());
+//!
+//! let robot = Robot { wheel_perimeter_m: 0.5, ..Robot::default() };
+//! let program = route.program(&robot, map.frame().cell_m, None);
+//! assert_eq!(program.revolutions(), 10.0);
+//! assert!(check_program(&map, &robot, &program, route.cells()).is_ok());
+//! # Ok::<(), activecell::Error>(())
+//! ```
+//!
+//! The core does no I/O, has no dependencies, and gives the same result on every run.
 
 mod error;
 mod lattice;
 mod map;
+mod program;
 mod rng;
+mod route;
+pub mod rule;
+mod wave;
 
 pub use error::Error;
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{BitPlane, Frame, MAX_CELLS, Map, PointM, Tiling};
+pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint, check_program, replay};
 pub use rng::Rng;
+pub use route::{Outcome, Route, RouteFault, check_route};
+pub use rule::Rule;
+pub use wave::Field;

@@ -1,6 +1,6 @@
 //! A seeded random generator whose numbers stay the same for ever, on every machine.
 
-/// SplitMix64 (Steele, Lea, Flood: *Fast Splittable Pseudorandom Number Generators*, OOPSLA 2014).
+/// `SplitMix64` (Steele, Lea, Flood: *Fast Splittable Pseudorandom Number Generators*, OOPSLA 2014).
 ///
 /// ```
 /// let mut rng = activecell::Rng::new(7);

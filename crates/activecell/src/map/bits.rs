@@ -35,7 +35,7 @@ impl BitPlane {
         }
         // Rows are padded to words, so a very tall and narrow plane counts as if it were 64 cells wide.
         if width.max(64).checked_mul(height).is_none_or(|cells| cells > MAX_CELLS) {
-            return Err(Error::MapTooLarge { width, height });
+            return Err(Error::MapTooLarge { width, height, limit: MAX_CELLS });
         }
         let words_per_row = width.div_ceil(64) as usize;
         let words = vec![0; words_per_row * height as usize];

@@ -39,11 +39,11 @@ impl Frame {
     /// [`Error::BadValue`] if the cell size is not a positive number or anything is not finite.
     pub fn checked(self) -> Result<Self, Error> {
         let bad = |name, value, allowed| Err(Error::BadValue { name, value, allowed });
-        if !(self.cell_m >= 1e-6 && self.cell_m <= 1e6) {
+        if !(1e-6..=1e6).contains(&self.cell_m) {
             return bad("the cell size in metres", self.cell_m, "between 0.000001 and 1000000");
         }
         for value in [self.origin_m[0], self.origin_m[1], self.yaw_rad] {
-            if !(value.abs() <= 1e9) {
+            if !(-1e9..=1e9).contains(&value) {
                 return bad("the map's origin", value, "a number of at most a thousand million");
             }
         }

@@ -49,7 +49,7 @@ impl Map {
         }
         let frame = Frame { cell_m: tiling.cell_m, ..self.frame }.checked()?;
         let bad = |name, value, allowed| Err(Error::BadValue { name, value, allowed });
-        if !(tiling.radius_m >= 0.0 && tiling.radius_m <= 1e6) {
+        if !(0.0..=1e6).contains(&tiling.radius_m) {
             return bad("the robot's radius in metres", tiling.radius_m, "between 0 and 1000000");
         }
         if !(0.0..=1.0).contains(&tiling.tolerance) {
@@ -171,7 +171,7 @@ impl<'a> Floor<'a> {
             return false;
         }
         // An occupied pixel m king's moves away is at least m − 1 pixels away, and at most m √2.
-        let middle = [(a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0];
+        let middle = [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])];
         let half = (a[0] - b[0]).hypot(a[1] - b[1]) / 2.0;
         let room = f64::from(self.room_at(middle));
         if room - 1.0 >= reach + half {

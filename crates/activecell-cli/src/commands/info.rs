@@ -1,0 +1,81 @@
+//! `activecell info`: what a map is.
+
+use super::load;
+use crate::args::InfoArgs;
+use crate::terminal::Terminal;
+use activecell_formats::files::MapFormat;
+use serde::Serialize;
+
+#[derive(Serialize)]
+struct Report {
+    map: String,
+    format: &'static str,
+    lattice: &'static str,
+    width: u32,
+    height: u32,
+    cell_m: f64,
+    size_m: [f64; 2],
+    origin_m: [f64; 2],
+    yaw_rad: f64,
+    free_cells: usize,
+    regions: usize,
+    largest_region: usize,
+    marks: Vec<(char, [i32; 2])>,
+}
+
+pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
+    let (map, format) = load::map(&args.map, None, terminal)?;
+    let regions = map.regions();
+    let frame = map.frame();
+    let report = Report {
+        map: args.map.path.display().to_string(),
+        format: name(format),
+        lattice: map.lattice().name(),
+        width: map.width(),
+        height: map.height(),
+        cell_m: frame.cell_m,
+        size_m: map.size_m(),
+        origin_m: frame.origin_m,
+        yaw_rad: frame.yaw_rad,
+        free_cells: map.free_cells(),
+        regions: regions.len(),
+        largest_region: regions.first().copied().unwrap_or(0),
+        marks: map.marks().iter().map(|&(name, cell)| (name, [cell.x, cell.y])).collect(),
+    };
+    if args.json {
+        return Terminal::result(&(serde_json::to_string(&report)? + "\n"));
+    }
+    let cells = map.cells().max(1) as f64;
+    let free = report.free_cells.max(1) as f64;
+    let marks: Vec<String> = map.marks().iter().map(|(name, cell)| format!("{name} {cell}")).collect();
+    let lines = [
+        format!("{} ({})", report.map, report.format),
+        format!(
+            "cells     {} x {} {}, {} m each",
+            report.width, report.height, report.lattice, report.cell_m
+        ),
+        format!(
+            "floor     {:.2} m x {:.2} m, lower left corner at {:?} m",
+            report.size_m[0], report.size_m[1], frame.origin_m
+        ),
+        format!("free      {} cells ({:.1} %)", report.free_cells, 100.0 * report.free_cells as f64 / cells),
+        format!(
+            "regions   {} that no way connects; the largest has {} cells ({:.1} % of the free)",
+            report.regions,
+            report.largest_region,
+            100.0 * report.largest_region as f64 / free
+        ),
+        format!("marks     {}", if marks.is_empty() { "none".to_owned() } else { marks.join(", ") }),
+    ];
+    Terminal::result(&(lines.join("\n") + "\n"))
+}
+
+fn name(format: MapFormat) -> &'static str {
+    match format {
+        MapFormat::Ros => "ROS map_server",
+        MapFormat::MovingAi => "MovingAI",
+        MapFormat::Png => "PNG",
+        MapFormat::Pgm => "PGM",
+        MapFormat::Text => "text",
+    }
+}

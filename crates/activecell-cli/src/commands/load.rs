@@ -1,0 +1,54 @@
+//! From the arguments to a map and a robot.
+
+use crate::args::{MapArgs, RulesArg, UnknownArg};
+use crate::terminal::Terminal;
+use activecell::{Lattice, Map, Robot, Tiling};
+use activecell_formats::files::{self, MapFormat, ReadOptions};
+use activecell_formats::{robot, ros};
+use std::path::Path;
+
+/// Reads the map and covers it with the cells that the arguments ask for.
+pub(crate) fn map(
+    args: &MapArgs,
+    robot: Option<&Robot>,
+    terminal: &Terminal,
+) -> anyhow::Result<(Map, MapFormat)> {
+    let rules = match args.map_rules {
+        RulesArg::Humble => ros::Rules::Humble,
+        RulesArg::Jazzy => ros::Rules::Jazzy,
+    };
+    let unknown_is_free = args.unknown == UnknownArg::Free;
+    let reading = ros::Reading { rules, unknown_is_free, occupied_from: args.occupied_from };
+    let _working = terminal.working(format!("reading {}", args.path.display()));
+    let options = ReadOptions { reading, resolution_m: args.resolution };
+    let (image, format) = files::read_map(&args.path, &options)?;
+    let lattice = Lattice::from(args.lattice);
+    let Some(cell_m) = args.cell else {
+        if let Some(robot) = robot.filter(|robot| 2.0 * robot.radius_m > image.frame().cell_m) {
+            terminal.note(&format!(
+                "note: the robot is {} m wide, a cell only {} m; with --cell the floor is re-tiled for the robot",
+                2.0 * robot.radius_m,
+                image.frame().cell_m
+            ));
+        }
+        return Ok((image.on(lattice), format));
+    };
+    let radius_m = args.radius.or(robot.map(|robot| robot.radius_m)).unwrap_or(cell_m / 2.0);
+    let tiling = Tiling { lattice, cell_m, radius_m, tolerance: args.tolerance };
+    let tiled = image.retile(&tiling)?;
+    terminal.detail(&format!(
+        "re-tiled to {} x {} cells of {cell_m} m for a robot of radius {radius_m} m",
+        tiled.width(),
+        tiled.height()
+    ));
+    Ok((tiled, format))
+}
+
+/// The most bytes that a robot file may have.
+const ROBOT_FILE_BYTES: u64 = 64 * 1024;
+
+/// Reads a robot file.
+pub(crate) fn robot(path: &Path) -> anyhow::Result<Robot> {
+    let bytes = files::read_bytes(path, ROBOT_FILE_BYTES)?;
+    Ok(robot::read(&bytes).map_err(|error| error.in_file(path))?)
+}

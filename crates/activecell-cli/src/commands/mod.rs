@@ -1,0 +1,44 @@
+//! The commands, one file each.
+
+mod convert;
+mod info;
+mod load;
+mod route;
+mod scen;
+mod success;
+mod table;
+
+use crate::args::{Cli, Command, TableKind};
+use crate::terminal::Terminal;
+use clap::CommandFactory;
+
+/// How a command that did not fail has ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Done {
+    /// Everything that was asked for.
+    Reached,
+    /// The work is done, but a target was not reached.
+    NotReached,
+}
+
+/// Runs a command.
+pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done> {
+    match command {
+        Command::Route(args) => return route::run(&args, terminal),
+        Command::Scen(args) => return scen::run(&args, terminal),
+        Command::Info(args) => info::run(&args, terminal)?,
+        Command::Convert(args) => convert::run(&args, terminal)?,
+        Command::Table(args) => match args.table {
+            TableKind::Rule { lattice, format } => Terminal::result(&table::rule(lattice.into(), format)?)?,
+            TableKind::Success { size, pairs, seed, format } => {
+                success::run(&success::Experiment { size, pairs, seed }, format, terminal)?;
+            }
+        },
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "activecell", &mut script);
+            Terminal::result(&String::from_utf8_lossy(&script))?;
+        }
+    }
+    Ok(Done::Reached)
+}

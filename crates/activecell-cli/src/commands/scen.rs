@@ -1,0 +1,130 @@
+//! `activecell scen`: every task of a MovingAI scenario.
+
+use super::Done;
+use crate::args::ScenArgs;
+use crate::terminal::Terminal;
+use activecell::{Lattice, Map, Outcome, Rule, check_route};
+use activecell_formats::files::{self, ReadOptions};
+use activecell_formats::movingai::{self, Task};
+use anyhow::Context;
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// The most bytes that a scenario may have.
+const SCEN_BYTES: u64 = 256 << 20;
+
+#[derive(Serialize)]
+struct Report {
+    map: String,
+    lattice: &'static str,
+    rule: &'static str,
+    tasks: usize,
+    arrived: usize,
+    rows: Vec<Row>,
+}
+
+#[derive(Serialize)]
+struct Row {
+    line: usize,
+    from: [i32; 2],
+    to: [i32; 2],
+    outcome: &'static str,
+    steps: usize,
+    expected: f64,
+    us: f64,
+}
+
+pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> {
+    let bytes = files::read_bytes(&args.scen, SCEN_BYTES)?;
+    let tasks = movingai::read_scen(&bytes).map_err(|error| error.in_file(&args.scen))?;
+    let map_path = match (&args.map, tasks.first()) {
+        (Some(path), _) => path.clone(),
+        (None, Some(task)) => beside(&args.scen, &task.map)?,
+        (None, None) => anyhow::bail!("{}: the scenario has no task", args.scen.display()),
+    };
+    let (map, _) = files::read_map(&map_path, &ReadOptions::default())?;
+    let map = map.on(Lattice::from(args.lattice));
+    let rule = Rule::from(args.rule);
+    let bar = terminal.counting(tasks.len() as u64, "routing");
+    let mut rows = Vec::with_capacity(tasks.len());
+    for task in &tasks {
+        let row = solve(&map, rule, task, args.max_steps);
+        rows.push(row.with_context(|| format!("{} line {}", args.scen.display(), task.line))?);
+        bar.step();
+    }
+    drop(bar);
+    let arrived = rows.iter().filter(|row| row.outcome == Outcome::Arrived.name()).count();
+    let (lattice, rule) = (map.lattice().name(), rule.name());
+    let report =
+        Report { map: map_path.display().to_string(), lattice, rule, tasks: rows.len(), arrived, rows };
+    let text = if args.json { serde_json::to_string(&report)? + "\n" } else { text(&report) };
+    Terminal::result(&text)?;
+    Ok(if arrived == report.tasks { Done::Reached } else { Done::NotReached })
+}
+
+fn solve(map: &Map, rule: Rule, task: &Task, max_steps: usize) -> anyhow::Result<Row> {
+    anyhow::ensure!(
+        (task.width, task.height) == (map.width(), map.height()),
+        "the task is for a map of {} x {} cells, this one has {} x {}; name the right map with --map",
+        task.width,
+        task.height,
+        map.width(),
+        map.height()
+    );
+    let started = Instant::now();
+    let route = map.route(rule, task.from, task.to, max_steps)?;
+    let us = started.elapsed().as_secs_f64() * 1e6;
+    let end = if route.outcome() == Outcome::Arrived { Some(&task.to) } else { route.cells().last() };
+    check_route(map, route.cells(), task.from, *end.unwrap_or(&task.from))?;
+    Ok(Row {
+        line: task.line,
+        from: [task.from.x, task.from.y],
+        to: [task.to.x, task.to.y],
+        outcome: route.outcome().name(),
+        steps: route.steps(),
+        expected: task.expected,
+        us,
+    })
+}
+
+/// The map that a scenario names: its file name, looked for beside the scenario.
+fn beside(scen: &Path, name: &str) -> anyhow::Result<PathBuf> {
+    let folder = scen.parent().unwrap_or(Path::new(""));
+    // Scenarios are written on every system.
+    let file_name = name.rsplit(['/', '\\']).next().unwrap_or(name);
+    let found = [folder.join(file_name), folder.join(name)].into_iter().find(|path| path.is_file());
+    found.with_context(|| {
+        format!("{}: its map `{name}` is not beside it; name the map with --map", scen.display())
+    })
+}
+
+fn text(report: &Report) -> String {
+    let mut micros: Vec<f64> = report.rows.iter().map(|row| row.us).collect();
+    micros.sort_by(f64::total_cmp);
+    let percentile = |share: f64| {
+        let index = ((micros.len() as f64 * share).ceil() as usize).clamp(1, micros.len().max(1)) - 1;
+        micros.get(index).copied().unwrap_or(0.0)
+    };
+    let steps: usize = report.rows.iter().map(|row| row.steps).sum();
+    let mut text = format!(
+        "{} · {} · {}: {} of {} tasks arrived, {steps} steps in all\nmicroseconds a task: median {:.0}, 95 % {:.0}, 99 % {:.0}\n",
+        report.map,
+        report.lattice,
+        report.rule,
+        report.arrived,
+        report.tasks,
+        percentile(0.5),
+        percentile(0.95),
+        percentile(0.99),
+    );
+    let missed = report.rows.iter().filter(|row| row.outcome != Outcome::Arrived.name());
+    for row in missed.clone().take(10) {
+        text += &format!("line {}: {} from {:?} to {:?}\n", row.line, row.outcome, row.from, row.to);
+    }
+    let more = missed.count().saturating_sub(10);
+    if more > 0 {
+        text += &format!("… and {more} more; --json gives all\n");
+    }
+    text
+}

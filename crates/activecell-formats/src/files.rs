@@ -1,0 +1,252 @@
+//! The disk: the only module that touches it.
+
+use crate::error::{Error, line_and_column};
+use crate::movingai;
+use crate::raster;
+use crate::ros::{self, MapYaml};
+use activecell::{Frame, Lattice, Map};
+use std::fs;
+use std::io::{self, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+
+/// The longest map or image that is read, in bytes: 1 GiB, a plain PGM of [`activecell::MAX_CELLS`] pixels.
+pub const MAX_MAP_BYTES: u64 = 1 << 30;
+
+/// Reads a whole file, or a pipe to its end, of at most `limit_bytes`.
+///
+/// # Errors
+/// [`Error::TooLarge`], before anything is read where the length is known; [`Error::Io`].
+pub fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Error> {
+    let failed = |source| Error::Io { path: path.to_owned(), action: "read", source };
+    let too_large = || {
+        let advice = "choose another file, or a part of it";
+        Error::TooLarge { limit: limit_bytes, advice }.in_file(path)
+    };
+    let metadata = fs::metadata(path).map_err(failed)?;
+    if metadata.is_dir() {
+        return Err(failed(io::ErrorKind::IsADirectory.into()));
+    }
+    if metadata.len() > limit_bytes {
+        return Err(too_large());
+    }
+    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    // One byte more tells a file of exactly the limit from a longer one.
+    let file = fs::File::open(path).map_err(failed)?;
+    file.take(limit_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > limit_bytes { Err(too_large()) } else { Ok(bytes) }
+}
+
+/// Writes a file so that it is there as a whole or, after an error, as it was before.
+///
+/// The bytes go to a new file in the same folder, which then takes the place of the old one. Devices and pipes
+/// (`/dev/stdout`) are written to directly.
+///
+/// # Errors
+/// [`Error::Io`].
+///
+/// ```
+/// # let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("plan.txt");
+/// activecell_formats::files::write_atomically(&path, b"done\n")?;
+/// assert_eq!(std::fs::read(&path)?, b"done\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
+    write_whole(path, bytes).map_err(|source| Error::Io { path: path.to_owned(), action: "write", source })
+}
+
+fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    if path == Path::new("/dev/stdout") {
+        // Opening it anew would begin at the start of a file to which standard output was redirected.
+        let mut out = io::stdout().lock();
+        out.write_all(bytes)?;
+        return out.flush();
+    }
+    let old = fs::metadata(path).ok();
+    let old_is_file = old.as_ref().is_some_and(fs::Metadata::is_file);
+    if old.as_ref().is_some_and(fs::Metadata::is_dir) {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if old.is_some() && (!old_is_file || path.starts_with("/dev")) {
+        return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
+    }
+    // A link stays a link: the file that it names is replaced.
+    let target = if old_is_file { fs::canonicalize(path)? } else { path.to_owned() };
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(io::ErrorKind::NotFound.into());
+    }
+    let permissions = old.map(|old| old.permissions());
+    if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    let mut file = new_file_in(folder)?;
+    file.write_all(bytes)?;
+    if let Some(permissions) = permissions {
+        file.as_file().set_permissions(permissions)?;
+    }
+    // A full disk may show only now.
+    file.as_file().sync_all()?;
+    file.persist(&target).map(drop).map_err(|error| error.error)
+}
+
+fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".activecell-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As any new file; the process's mask takes its share.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder)
+}
+
+/// The formats of map files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum MapFormat {
+    /// ROS `map_server`: `.yaml`, `.yml`, with an image beside it.
+    Ros,
+    /// `MovingAI`: `.map`.
+    MovingAi,
+    /// An image: `.png`.
+    Png,
+    /// An image: `.pgm`.
+    Pgm,
+    /// Text: `.txt`.
+    Text,
+}
+
+impl MapFormat {
+    /// The format that the path's ending names, in upper or lower case.
+    ///
+    /// # Errors
+    /// [`Error::UnknownFormat`].
+    ///
+    /// ```
+    /// use activecell_formats::files::MapFormat;
+    /// assert_eq!(MapFormat::of("maps/Office.YAML".as_ref())?, MapFormat::Ros);
+    /// # Ok::<(), activecell_formats::Error>(())
+    /// ```
+    pub fn of(path: &Path) -> Result<Self, Error> {
+        let ending = path.extension().unwrap_or_default().to_ascii_lowercase();
+        match ending.to_str() {
+            Some("yaml" | "yml") => Ok(Self::Ros),
+            Some("map") => Ok(Self::MovingAi),
+            Some("png") => Ok(Self::Png),
+            Some("pgm") => Ok(Self::Pgm),
+            Some("txt") => Ok(Self::Text),
+            _ => Err(Error::UnknownFormat { path: path.to_owned() }),
+        }
+    }
+}
+
+/// How a map is read.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ReadOptions {
+    /// How images become free cells and obstacles.
+    pub reading: ros::Reading,
+    /// The size of a cell in metres for formats that state none; without it 1 m, in images 0.05 m.
+    pub resolution_m: Option<f64>,
+}
+
+/// Reads a map in the format that its ending names; a `.txt` that begins with `type ` is a `MovingAI` map.
+/// The map is always of squares.
+///
+/// The image of a `.yaml` is looked for in the YAML's folder, unless its path is absolute; `~/` at its beginning
+/// means that folder too.
+///
+/// # Errors
+/// All errors of the formats, with the file. [`Error::BadFormat`] if a resolution is given for a `.yaml`.
+pub fn read_map(path: &Path, options: &ReadOptions) -> Result<(Map, MapFormat), Error> {
+    let format = MapFormat::of(path)?;
+    read_map_as(path, format, options).map_err(|error| error.in_file(path))
+}
+
+fn read_map_as(path: &Path, format: MapFormat, options: &ReadOptions) -> Result<(Map, MapFormat), Error> {
+    let bytes = || read_bytes(path, MAX_MAP_BYTES);
+    let in_cells = |map: Map| match options.resolution_m {
+        Some(cell_m) => Ok::<_, Error>(map.in_frame(Frame { cell_m, ..Frame::default() })?),
+        None => Ok(map),
+    };
+    match format {
+        MapFormat::Ros if options.resolution_m.is_some() => Err(Error::file(
+            "the YAML states the cell size itself; leave the other one out, or edit `resolution`",
+        )),
+        MapFormat::Ros => Ok((read_ros(path, options.reading)?, format)),
+        MapFormat::Png | MapFormat::Pgm => {
+            let default = MapYaml::default();
+            let yaml =
+                MapYaml { resolution_m: options.resolution_m.unwrap_or(default.resolution_m), ..default };
+            Ok((ros::to_map(&raster::read_image(&bytes()?)?, &yaml, &options.reading)?, format))
+        }
+        MapFormat::MovingAi => Ok((in_cells(movingai::read_map(&bytes()?)?)?, format)),
+        MapFormat::Text => {
+            let bytes = bytes()?;
+            let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
+            if bytes.starts_with(b"type ") {
+                return Ok((in_cells(movingai::read_map(bytes)?)?, MapFormat::MovingAi));
+            }
+            Ok((in_cells(Map::parse(Lattice::Square, text(bytes)?)?)?, format))
+        }
+    }
+}
+
+fn read_ros(path: &Path, reading: ros::Reading) -> Result<Map, Error> {
+    let yaml = MapYaml::read(&read_bytes(path, ros::MAX_YAML_BYTES)?)?;
+    let image_path = beside(path, &yaml.image);
+    let image = match read_bytes(&image_path, MAX_MAP_BYTES) {
+        Ok(bytes) => raster::read_image(&bytes).map_err(|error| error.in_file(&image_path))?,
+        // Who named that file?
+        Err(source) => return Err(Error::InFile { path: path.to_owned(), source: Box::new(source) }),
+    };
+    ros::to_map(&image, &yaml, &reading)
+}
+
+fn beside(path: &Path, name: &str) -> PathBuf {
+    path.parent().unwrap_or(Path::new("")).join(name)
+}
+
+fn text(bytes: &[u8]) -> Result<&str, Error> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let index = error.valid_up_to();
+        let (line, column) = line_and_column(bytes, index);
+        Error::at(line, column, format!("the byte {:#04x} is not text; is this a text map?", bytes[index]))
+    })
+}
+
+/// Writes a map in the format that the ending names.
+///
+/// A `.yaml` gets its image beside it, with the same name and the ending `.pgm`, written first. The other formats
+/// do not keep the frame, and only `.txt` keeps the names of cells; no format keeps the lattice.
+///
+/// # Errors
+/// [`Error::UnknownFormat`]; [`Error::Io`]; [`Error::BadFormat`] for a `.yaml` of hexagons.
+pub fn write_map(path: &Path, map: &Map) -> Result<(), Error> {
+    match MapFormat::of(path)? {
+        MapFormat::Ros => write_ros(path, map).map_err(|error| error.in_file(path)),
+        MapFormat::MovingAi => write_atomically(path, movingai::write_map(map).as_bytes()),
+        MapFormat::Png => {
+            let bytes = ros::to_image(map).and_then(|image| raster::write_png(&image));
+            write_atomically(path, &bytes.map_err(|error| error.in_file(path))?)
+        }
+        MapFormat::Pgm => {
+            let image = ros::to_image(map).map_err(|error| error.in_file(path))?;
+            write_atomically(path, &raster::write_pgm(&image))
+        }
+        MapFormat::Text => write_atomically(path, map.to_text().as_bytes()),
+    }
+}
+
+fn write_ros(path: &Path, map: &Map) -> Result<(), Error> {
+    let (yaml, image) = ros::from_map(map)?;
+    let image_path = path.with_extension("pgm");
+    let Some(name) = image_path.file_name().and_then(|name| name.to_str()) else {
+        return Err(Error::file(
+            "the file's name is not text, and the YAML must name its image; choose another name",
+        ));
+    };
+    let yaml = MapYaml { image: name.to_owned(), ..yaml };
+    write_atomically(&image_path, &raster::write_pgm(&image))?;
+    write_atomically(path, yaml.write().as_bytes())
+}

@@ -1,0 +1,208 @@
+//! Robot files: TOML, every key with its unit in its name and a default for each.
+
+use crate::error::{Error, quoted};
+use activecell::{Drive, Robot};
+use std::ops::Range;
+use toml::de::{DeTable, DeValue};
+
+/// Where a key's value goes.
+enum Slot {
+    Number(fn(&mut Robot) -> &mut f64),
+    Flag(fn(&mut Robot) -> &mut bool),
+    Drive,
+}
+
+/// Every key of a robot file, with its section.
+const KEYS: [(&str, Slot); 17] = [
+    ("wheel_perimeter_m", Slot::Number(|robot| &mut robot.wheel_perimeter_m)),
+    ("track_m", Slot::Number(|robot| &mut robot.track_m)),
+    ("radius_m", Slot::Number(|robot| &mut robot.radius_m)),
+    ("drive", Slot::Drive),
+    ("can_reverse", Slot::Flag(|robot| &mut robot.can_reverse)),
+    ("max_speed_mps", Slot::Number(|robot| &mut robot.max_speed_mps)),
+    ("max_accel_mps2", Slot::Number(|robot| &mut robot.max_accel_mps2)),
+    ("turn_rate_radps", Slot::Number(|robot| &mut robot.turn_rate_radps)),
+    ("errors.wheel_perimeter_rel", Slot::Number(|robot| &mut robot.errors.wheel_perimeter_rel)),
+    ("errors.unevenness_m_per_sqrt_m", Slot::Number(|robot| &mut robot.errors.unevenness_m_per_sqrt_m)),
+    ("errors.cell_division_m", Slot::Number(|robot| &mut robot.errors.cell_division_m)),
+    ("errors.stop_inertia_m", Slot::Number(|robot| &mut robot.errors.stop_inertia_m)),
+    ("errors.turn_rad", Slot::Number(|robot| &mut robot.errors.turn_rad)),
+    ("errors.start_m", Slot::Number(|robot| &mut robot.errors.start_m)),
+    ("errors.start_rad", Slot::Number(|robot| &mut robot.errors.start_rad)),
+    ("sensors.range_m", Slot::Number(|robot| &mut robot.sensors.range_m)),
+    ("sensors.noise_m", Slot::Number(|robot| &mut robot.sensors.noise_m)),
+];
+
+/// Reads a robot file; keys that it does not name keep their defaults ([`Robot::default`]).
+///
+/// # Errors
+/// [`Error::BadFormat`] with line and column: not TOML, a key that no robot has (the nearest known key is
+/// named), a value of another kind or out of its range.
+///
+/// ```
+/// use activecell_formats::robot;
+/// let robot = robot::read(b"wheel_perimeter_m = 0.5\ndrive = \"steered\"\n[errors]\nturn_rad = 0.02\n")?;
+/// assert_eq!(robot.wheel_perimeter_m, 0.5);
+/// let error = robot::read(b"weel_perimeter_m = 0.5").unwrap_err();
+/// assert_eq!(error.to_string(), "line 1, column 1: unknown key `weel_perimeter_m`; did you mean `wheel_perimeter_m`?");
+/// # Ok::<(), activecell_formats::Error>(())
+/// ```
+pub fn read(bytes: &[u8]) -> Result<Robot, Error> {
+    let text = std::str::from_utf8(bytes).map_err(|_| Error::file("not UTF-8 text; a robot file is TOML"))?;
+    let document = DeTable::parse(text).map_err(|error| {
+        let message = error.message().lines().next().unwrap_or_default().to_owned();
+        at(text, error.span().unwrap_or(0..0), format!("not TOML: {message}"))
+    })?;
+    let mut robot = Robot::default();
+    read_table(text, "", document.get_ref(), &mut robot)?;
+    Ok(robot)
+}
+
+/// The robot as JSON, with the keys and sections of a robot file.
+pub(crate) fn to_json(robot: &Robot) -> serde_json::Value {
+    let mut copy = *robot;
+    let mut json = serde_json::json!({});
+    for (key, slot) in &KEYS {
+        let value: serde_json::Value = match slot {
+            Slot::Number(field) => (*field(&mut copy)).into(),
+            Slot::Flag(field) => (*field(&mut copy)).into(),
+            Slot::Drive => copy.drive.name().into(),
+        };
+        match key.split_once('.') {
+            Some((section, name)) => json[section][name] = value,
+            None => json[*key] = value,
+        }
+    }
+    json
+}
+
+fn read_table(text: &str, section: &str, table: &DeTable<'_>, robot: &mut Robot) -> Result<(), Error> {
+    // In the order of the file, so that the first mistake is the one that is told.
+    let mut entries: Vec<_> = table.iter().collect();
+    entries.sort_by_key(|(key, _)| key.span().start);
+    for (key, value) in entries {
+        let path = format!("{section}{}", key.get_ref());
+        let is_section =
+            section.is_empty() && KEYS.iter().any(|(known, _)| known.starts_with(&format!("{path}.")));
+        match (KEYS.iter().find(|(known, _)| *known == path), value.get_ref()) {
+            (Some((name, slot)), value_read) => {
+                set(slot, value_read, robot)
+                    .map_err(|expected| at(text, value.span(), format!("{name} must be {expected}")))?;
+                let checked = robot.checked();
+                checked.map_err(|error| at(text, value.span(), error.to_string()))?;
+            }
+            (None, DeValue::Table(inner)) if is_section => {
+                read_table(text, &format!("{path}."), inner, robot)?;
+            }
+            (None, _) if is_section => {
+                return Err(at(text, value.span(), format!("{path} must be a section: [{path}]")));
+            }
+            (None, _) => {
+                let reason = format!("unknown key {}; did you mean {}?", quoted(&path), nearest(&path));
+                return Err(at(text, key.span(), reason));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Puts the value where it belongs, or says what it should be.
+fn set(slot: &Slot, value: &DeValue<'_>, robot: &mut Robot) -> Result<(), &'static str> {
+    match (slot, value) {
+        (Slot::Number(field), DeValue::Float(number)) => {
+            *field(robot) = number.as_str().parse().map_err(|_| "a number")?;
+        }
+        (Slot::Number(field), DeValue::Integer(number)) => {
+            let whole = i64::from_str_radix(number.as_str(), number.radix()).map_err(|_| "a number")?;
+            *field(robot) = whole as f64;
+        }
+        (Slot::Flag(field), DeValue::Boolean(flag)) => *field(robot) = *flag,
+        (Slot::Drive, DeValue::String(name)) => {
+            let known = [Drive::Steered, Drive::Differential].into_iter().find(|drive| drive.name() == name);
+            robot.drive = known.ok_or("\"steered\" or \"differential\"")?;
+        }
+        (Slot::Number(_), _) => return Err("a number"),
+        (Slot::Flag(_), _) => return Err("true or false"),
+        (Slot::Drive, _) => return Err("\"steered\" or \"differential\""),
+    }
+    Ok(())
+}
+
+/// The known key that is most like this one; a key in the wrong section is told by its section.
+fn nearest(path: &str) -> String {
+    let own_name = |path: &str| path.rsplit('.').next().unwrap_or_default().to_owned();
+    let likeness = |known: &str| {
+        let names = strsim::jaro_winkler(&own_name(known), &own_name(path));
+        let paths = strsim::jaro_winkler(known, path);
+        names + 0.1 * paths
+    };
+    let best = KEYS.iter().map(|(known, _)| *known).max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    match best.unwrap_or_default().split_once('.') {
+        Some((section, name)) => format!("`{name}` in [{section}]"),
+        None => format!("`{}`", best.unwrap_or_default()),
+    }
+}
+
+fn at(text: &str, span: Range<usize>, reason: String) -> Error {
+    let before = text.get(..span.start).unwrap_or(text);
+    let line_start = before.rfind('\n').map_or(0, |end| end + 1);
+    Error::at(before.matches('\n').count() + 1, before[line_start..].chars().count() + 1, reason)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_empty_file_is_the_default_robot() {
+        assert_eq!(read(b"").unwrap(), Robot::default());
+    }
+
+    #[test]
+    fn every_key_is_read_into_its_own_place() {
+        // Each key alone changes the robot, and no two change it alike.
+        let mut robots = Vec::new();
+        for (key, slot) in &KEYS {
+            let value = match slot {
+                Slot::Number(_) => "7",
+                Slot::Flag(_) => "false",
+                Slot::Drive => "\"steered\"",
+            };
+            let text = match key.split_once('.') {
+                Some((section, name)) => format!("[{section}]\n{name} = {value}\n"),
+                None => format!("{key} = {value}\n"),
+            };
+            let robot = read(text.as_bytes()).unwrap();
+            assert_ne!(robot, Robot::default(), "{key}");
+            assert!(!robots.contains(&robot), "{key}");
+            robots.push(robot);
+        }
+    }
+
+    #[test]
+    fn mistakes_are_told_by_place_and_nearest_key() {
+        let error = |text: &str| read(text.as_bytes()).unwrap_err().to_string();
+        let cases = [
+            ("track_m = -1", "line 1, column 11: track_m is -1; it must be above 0 and at most 1000000"),
+            ("\nradius_m = nan", "line 2, column 12: radius_m is NaN; it must be between 0 and 1000000"),
+            ("track_m = \"0.2\"", "line 1, column 11: track_m must be a number"),
+            ("drive = \"tank\"", "line 1, column 9: drive must be \"steered\" or \"differential\""),
+            (
+                "turn_rad = 0.1",
+                "line 1, column 1: unknown key `turn_rad`; did you mean `turn_rad` in [errors]?",
+            ),
+            (
+                "[errors]\nwheel_perimeter = 0.1",
+                "line 2, column 1: unknown key `errors.wheel_perimeter`; did you mean `wheel_perimeter_rel` in [errors]?",
+            ),
+            ("errors = 3", "line 1, column 10: errors must be a section: [errors]"),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(error(text), expected);
+        }
+        for text in ["[", "a = ", "track_m = 1\ntrack_m = 2", "\u{0}"] {
+            let message = error(text);
+            assert!(message.contains("not TOML") && !message.contains('\n'), "{message}");
+        }
+    }
+}

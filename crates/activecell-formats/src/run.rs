@@ -1,0 +1,154 @@
+//! Runs: a map, a robot, a task and its route in one JSON file, and the route's report that commands print.
+
+use crate::error::Error;
+use crate::robot::to_json;
+use activecell::{Cell, Dir, Map, Outcome, Program, Robot, Route, Rule};
+use serde::Serialize;
+
+/// The version of the run files that are written.
+pub const VERSION: u32 = 1;
+
+/// The object that `route --json` prints and that a run file holds.
+///
+/// The names are a contract: keys are added, never changed.
+#[derive(Debug, Clone, Serialize)]
+pub struct RouteReport {
+    /// `arrived`, `trapped`, `unreachable` or `enclosed`.
+    pub outcome: &'static str,
+    /// `square` or `hex`.
+    pub lattice: &'static str,
+    /// `published`, `learning` or `wave`.
+    pub rule: &'static str,
+    /// Steps from cell to cell.
+    pub steps: usize,
+    /// Turns that the robot makes.
+    pub turns: usize,
+    /// The way driven, in metres.
+    pub length_m: f64,
+    /// The wheel revolutions of that way, without the turns.
+    pub revolutions: f64,
+    /// The revolutions that each wheel makes in turns; 0 if the wheels are steered.
+    pub turn_revolutions: f64,
+    /// The active cells, the start first, as [x, y].
+    pub cells: Vec<[i32; 2]>,
+    /// The cells in which a trapped robot circles; else empty.
+    pub cycle: Vec<[i32; 2]>,
+    /// Where the robot faces at the start; null for a route without a step.
+    pub heading: Option<&'static str>,
+    /// The program M; empty unless the robot arrived.
+    pub program: Vec<WaypointReport>,
+    /// How far the robot can be trusted; null until a certificate is asked for.
+    pub certificate: Option<()>,
+    /// How long it took to find.
+    pub seconds: Seconds,
+}
+
+/// One entry of M.
+#[derive(Debug, Clone, Serialize)]
+pub struct WaypointReport {
+    /// Column of the cell in which the run ends.
+    pub x: i32,
+    /// Its row.
+    pub y: i32,
+    /// The turn made there, degrees, right positive.
+    pub turn_deg: i32,
+    /// The run to this cell in wheel revolutions, negative backwards.
+    pub revolutions: f64,
+    /// The revolutions that each wheel makes in the turn.
+    pub turn_revolutions: f64,
+}
+
+/// Computing times.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+pub struct Seconds {
+    /// For the field (rule `wave`).
+    pub field: f64,
+    /// For the route.
+    pub route: f64,
+}
+
+impl RouteReport {
+    /// The report of a route over cells of `cell_m` metres and of the program that drives it.
+    pub fn new(
+        rule: Rule,
+        route: &Route,
+        program: &Program,
+        robot: &Robot,
+        cell_m: f64,
+        seconds: Seconds,
+    ) -> Self {
+        let lattice = route.lattice();
+        let pair = |cell: &Cell| [cell.x, cell.y];
+        let length_m = route.steps() as f64 * cell_m;
+        let waypoints = program.waypoints.iter().map(|waypoint| WaypointReport {
+            x: waypoint.cell.x,
+            y: waypoint.cell.y,
+            turn_deg: waypoint.turn_deg,
+            revolutions: waypoint.revolutions,
+            turn_revolutions: waypoint.turn_revolutions,
+        });
+        let waypoints: Vec<WaypointReport> = waypoints.collect();
+        Self {
+            outcome: route.outcome().name(),
+            lattice: lattice.name(),
+            rule: rule.name(),
+            steps: route.steps(),
+            turns: program.turns(),
+            length_m,
+            revolutions: robot.revolutions(length_m),
+            turn_revolutions: waypoints.iter().map(|waypoint| waypoint.turn_revolutions).sum(),
+            cells: route.cells().iter().map(pair).collect(),
+            cycle: route.cycle().iter().map(pair).collect(),
+            heading: program.heading.map(|dir: Dir| lattice.dir_name(dir)),
+            program: if route.outcome() == Outcome::Arrived { waypoints } else { Vec::new() },
+            certificate: None,
+            seconds,
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Run<'a> {
+    activecell: &'static str,
+    version: u32,
+    map: RunMap,
+    robot: serde_json::Value,
+    from: [i32; 2],
+    to: [i32; 2],
+    route: &'a RouteReport,
+}
+
+#[derive(Serialize)]
+struct RunMap {
+    lattice: &'static str,
+    cell_m: f64,
+    origin_m: [f64; 2],
+    yaw_rad: f64,
+    rows: Vec<String>,
+}
+
+/// A run as JSON: everything that is needed to drive it again.
+///
+/// # Errors
+/// None that a value of these types can cause; the signature is that of the JSON library.
+pub fn write(map: &Map, robot: &Robot, from: Cell, to: Cell, route: &RouteReport) -> Result<String, Error> {
+    let frame = map.frame();
+    let run = Run {
+        activecell: "run",
+        version: VERSION,
+        map: RunMap {
+            lattice: map.lattice().name(),
+            cell_m: frame.cell_m,
+            origin_m: frame.origin_m,
+            yaw_rad: frame.yaw_rad,
+            rows: map.to_text().lines().map(str::to_owned).collect(),
+        },
+        robot: to_json(robot),
+        from: [from.x, from.y],
+        to: [to.x, to.y],
+        route,
+    };
+    let mut text = serde_json::to_string(&run).map_err(|error| Error::file(error.to_string()))?;
+    text.push('\n');
+    Ok(text)
+}

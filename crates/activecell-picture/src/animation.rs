@@ -1,0 +1,269 @@
+//! Animations: the wave spreads, then the active cell moves along the route.
+//!
+//! A frame is put together from two canvases, one below and one above, and a few moving shapes. Only what
+//! differs from the frame before is written.
+
+use crate::colour::Rgb;
+use crate::figure::Figure;
+use crate::layout::{Layout, MOVING};
+use crate::legend::{Key, active_disc};
+use crate::palette::{Palette, SAME, wave_tint};
+use crate::raster;
+use crate::route::{self, Route};
+use crate::scene::Shape;
+use crate::{Error, RoutePicture};
+use activecell::{Cell, Map};
+use std::borrow::Cow;
+use tiny_skia::{Pixmap, PremultipliedColorU8};
+
+const WAVE_FRAMES: u32 = 70;
+const ROUTE_FRAMES: usize = 90;
+/// How long frames stay, in hundredths of a second.
+const WAVE_CS: u16 = 5;
+const STEP_CS: u16 = 7;
+/// A few steps are shown more slowly than many.
+const SLOW_STEP_CS: u16 = 14;
+const PAUSE_CS: u16 = 60;
+const HOLD_CS: u16 = 200;
+/// Smaller cells are not tinted as the active cell leaves them.
+const TRAIL_PX: f64 = 4.0;
+
+/// Makes the animation of a route.
+pub(crate) fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
+    let figure = Figure::new(picture.map, picture.title, MOVING);
+    let layout = &figure.layout;
+    let drawn = Route::new(layout, picture);
+    let mut keys = drawn.keys(picture.wave.is_some());
+    if !picture.cells.is_empty() {
+        keys.push(Key::Active);
+    }
+    if figure.has_obstacles() {
+        keys.push(Key::Obstacle);
+    }
+    let mut page = figure.page(&keys, Some(picture));
+    page.shapes.push(figure.floor());
+    let mut stage = Stage { below: raster::draw(&page)?, above: raster::canvas(&page)? };
+    raster::draw_shapes(&mut stage.above, &figure.fixed());
+
+    let marks = route::marks(layout, picture);
+    let mut film = Film::new(&stage.frame(&marks), PAUSE_CS)?;
+    if let Some(wave) = picture.wave {
+        show_wave(&mut film, &mut stage, &figure, wave, &marks)?;
+    }
+    show_route(&mut film, &mut stage, &figure, picture, &marks)?;
+    raster::draw_shapes(&mut stage.below, &drawn.tints());
+    film.shoot(&stage.frame(&drawn.lines_and_marks()), HOLD_CS)?;
+    film.finish()
+}
+
+/// The wave's levels, a few a frame, painted pixel by pixel: no seams, and maps of any size.
+fn show_wave(
+    film: &mut Film,
+    stage: &mut Stage,
+    figure: &Figure<'_>,
+    wave: &[Option<u32>],
+    marks: &[Shape],
+) -> Result<(), Error> {
+    let Some(&longest) = wave.iter().flatten().max() else { return Ok(()) };
+    let steps_at = |cell: Cell| *wave.get(figure.map.index(cell)?)?;
+    let (columns, rows) = pixels(&figure.layout, &stage.below);
+    let mut levels = Vec::new();
+    for y in rows {
+        for x in columns.clone() {
+            if let Some(steps) = steps_at(figure.layout.cell_at(x, y)) {
+                levels.push((steps, y * stage.below.width() + x));
+            }
+        }
+    }
+    levels.sort_unstable();
+    let stride = (longest / WAVE_FRAMES).saturating_add(1);
+    let mut rest = levels.as_slice();
+    while let Some(&(steps, _)) = rest.first() {
+        let reached = (steps / stride).saturating_add(1).saturating_mul(stride);
+        let (now, later) = rest.split_at(rest.partition_point(|&(steps, _)| steps < reached));
+        // The last level of all can be the largest number there is.
+        let (now, later) = if now.is_empty() { (rest, &rest[..0]) } else { (now, later) };
+        for &(steps, pixel) in now {
+            stage.below.pixels_mut()[pixel as usize] = opaque(wave_tint(steps, longest));
+        }
+        rest = later;
+        let delay = if rest.is_empty() { PAUSE_CS } else { WAVE_CS };
+        film.shoot(&stage.frame(marks), delay)?;
+    }
+    Ok(())
+}
+
+/// The active cell moves along the route and leaves a tinted trail and the line.
+fn show_route(
+    film: &mut Film,
+    stage: &mut Stage,
+    figure: &Figure<'_>,
+    picture: &RoutePicture<'_>,
+    marks: &[Shape],
+) -> Result<(), Error> {
+    let layout = &figure.layout;
+    let cells: Vec<Cell> = picture.cells.iter().copied().filter(|&cell| picture.map.contains(cell)).collect();
+    let stride = cells.len().saturating_sub(1) / ROUTE_FRAMES + 1;
+    let delay = if cells.len() <= ROUTE_FRAMES / 3 { SLOW_STEP_CS } else { STEP_CS };
+    let radius = (layout.cell * 0.3).clamp(6.0, 14.0);
+    let mut tinted = 0;
+    for last in (0..cells.len()).step_by(stride) {
+        for &cell in &cells[tinted..=last] {
+            tint(stage, layout, picture.map, cell);
+        }
+        tinted = last + 1;
+        let mut moving = route::line(layout, &cells[..=last], route::line_width(layout));
+        moving.extend_from_slice(marks);
+        moving.push(active_disc(layout.centre(cells[last]), radius));
+        film.shoot(&stage.frame(&moving), delay)?;
+    }
+    Ok(())
+}
+
+fn tint(stage: &mut Stage, layout: &Layout, map: &Map, cell: Cell) {
+    if layout.cell < TRAIL_PX || !map.is_free(cell) {
+        return;
+    }
+    raster::draw_shapes(
+        &mut stage.below,
+        &[Shape::area(vec![layout.corners(cell, 1.0)], crate::colour::BLUE_TINT)],
+    );
+}
+
+/// Columns and rows of the pixels that can belong to the map.
+fn pixels(layout: &Layout, canvas: &Pixmap) -> (std::ops::Range<u32>, std::ops::Range<u32>) {
+    let range = |axis: usize, limit: u32| {
+        let from = layout.origin[axis].floor().max(0.0) as u32;
+        let to = (layout.origin[axis] + layout.map_size[axis]).ceil() as u32;
+        from.min(limit)..to.min(limit)
+    };
+    (range(0, canvas.width()), range(1, canvas.height()))
+}
+
+fn opaque(Rgb(r, g, b): Rgb) -> PremultipliedColorU8 {
+    tiny_skia::ColorU8::from_rgba(r, g, b, 0xff).premultiply()
+}
+
+/// What lies below the obstacles and changes, and what lies above and does not.
+struct Stage {
+    below: Pixmap,
+    above: Pixmap,
+}
+
+impl Stage {
+    /// The frame with these shapes on top.
+    fn frame(&self, moving: &[Shape]) -> Pixmap {
+        let mut frame = self.below.clone();
+        for (pixel, above) in frame.data_mut().chunks_exact_mut(4).zip(self.above.data().chunks_exact(4)) {
+            match above[3] {
+                0 => {}
+                0xff => pixel.copy_from_slice(above),
+                alpha => {
+                    for (below, &above) in pixel.iter_mut().zip(above) {
+                        let shining = u32::from(*below) * u32::from(0xff - alpha);
+                        *below = above.saturating_add(((shining + 127) / 255) as u8);
+                    }
+                }
+            }
+        }
+        raster::draw_shapes(&mut frame, moving);
+        frame
+    }
+}
+
+/// The file as it is written.
+struct Film {
+    encoder: gif::Encoder<Vec<u8>>,
+    palette: Palette,
+    /// The last frame, and the colour numbers that stand for it.
+    last: Pixmap,
+    numbers: Vec<u8>,
+    /// A frame waits here until it is known that the next one differs.
+    waiting: gif::Frame<'static>,
+}
+
+impl Film {
+    /// A film whose first frame covers all of it.
+    fn new(first: &Pixmap, delay_cs: u16) -> Result<Self, Error> {
+        let (width, height) = (first.width(), first.height());
+        let size = |size: u32| u16::try_from(size).map_err(|_| Error::Canvas { width, height });
+        let (w, h) = (size(width)?, size(height)?);
+        let mut palette = Palette::new();
+        let mut encoder =
+            gif::Encoder::new(Vec::new(), w, h, &palette.bytes()).map_err(|error| encoding(&error))?;
+        encoder.set_repeat(gif::Repeat::Infinite).map_err(|error| encoding(&error))?;
+        let numbers: Vec<u8> = first.data().chunks_exact(4).map(|p| number(&mut palette, p)).collect();
+        let waiting = gif::Frame {
+            delay: delay_cs,
+            width: w,
+            height: h,
+            buffer: Cow::Owned(numbers.clone()),
+            ..gif::Frame::default()
+        };
+        Ok(Self { encoder, palette, last: first.clone(), numbers, waiting })
+    }
+
+    /// Adds a frame: the smallest rectangle that holds all changes, the rest of it “as before”.
+    fn shoot(&mut self, frame: &Pixmap, delay_cs: u16) -> Result<(), Error> {
+        let Some((columns, rows)) = self.changed(frame) else {
+            self.waiting.delay = self.waiting.delay.saturating_add(delay_cs);
+            return Ok(());
+        };
+        let width = frame.width() as usize;
+        let mut buffer = Vec::with_capacity(columns.len() * rows.len());
+        for y in rows.clone() {
+            for pixel in y * width + columns.start..y * width + columns.end {
+                let now = number(&mut self.palette, &frame.data()[4 * pixel..4 * pixel + 4]);
+                buffer.push(if now == self.numbers[pixel] { SAME } else { now });
+                self.numbers[pixel] = now;
+            }
+        }
+        self.last.data_mut().copy_from_slice(frame.data());
+        // The sizes fit: they are parts of the whole, which fitted.
+        let next = gif::Frame {
+            delay: delay_cs,
+            left: columns.start as u16,
+            top: rows.start as u16,
+            width: columns.len() as u16,
+            height: rows.len() as u16,
+            transparent: Some(SAME),
+            buffer: Cow::Owned(buffer),
+            ..gif::Frame::default()
+        };
+        let before = std::mem::replace(&mut self.waiting, next);
+        self.encoder.write_frame(&before).map_err(|error| encoding(&error))
+    }
+
+    /// Columns and rows of the rectangle in which a frame differs from the last.
+    fn changed(&self, frame: &Pixmap) -> Option<(std::ops::Range<usize>, std::ops::Range<usize>)> {
+        let stride = 4 * frame.width() as usize;
+        let (mut left, mut right) = (usize::MAX, 0);
+        let (mut top, mut bottom) = (None, 0);
+        let rows = frame.data().chunks_exact(stride).zip(self.last.data().chunks_exact(stride));
+        for (y, (now, before)) in rows.enumerate() {
+            if now == before {
+                continue;
+            }
+            let differs = |(a, b): (&[u8], &[u8])| a != b;
+            let mut pairs = now.chunks_exact(4).zip(before.chunks_exact(4));
+            left = left.min(pairs.clone().position(differs).unwrap_or(0));
+            right = right.max(pairs.rposition(differs).unwrap_or(0) + 1);
+            top = top.or(Some(y));
+            bottom = y + 1;
+        }
+        top.map(|top| (left..right, top..bottom))
+    }
+
+    fn finish(mut self) -> Result<Vec<u8>, Error> {
+        self.encoder.write_frame(&self.waiting).map_err(|error| encoding(&error))?;
+        self.encoder.into_inner().map_err(|error| Error::Encoding(error.to_string()))
+    }
+}
+
+fn number(palette: &mut Palette, pixel: &[u8]) -> u8 {
+    palette.nearest(Rgb(pixel[0], pixel[1], pixel[2]))
+}
+
+fn encoding(error: &gif::EncodingError) -> Error {
+    Error::Encoding(error.to_string())
+}

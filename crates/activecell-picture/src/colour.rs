@@ -1,0 +1,53 @@
+//! Colours: the colour-blind safe set of Okabe and Ito, and the calm greys around it.
+
+/// An opaque colour: red, green, blue.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Rgb(pub(crate) u8, pub(crate) u8, pub(crate) u8);
+
+pub(crate) const PAGE: Rgb = Rgb(0xff, 0xff, 0xff);
+pub(crate) const FLOOR: Rgb = Rgb(0xf8, 0xf8, 0xf5);
+pub(crate) const GRID: Rgb = Rgb(0xdf, 0xe1, 0xe0);
+pub(crate) const EDGE: Rgb = Rgb(0xa9, 0xb0, 0xb6);
+pub(crate) const OBSTACLE: Rgb = Rgb(0x3d, 0x48, 0x52);
+pub(crate) const TEXT: Rgb = Rgb(0x22, 0x29, 0x2f);
+/// The route.
+pub(crate) const BLUE: Rgb = Rgb(0x00, 0x72, 0xb2);
+pub(crate) const BLUE_TINT: Rgb = Rgb(0xc2, 0xdf, 0xf3);
+/// Turns.
+pub(crate) const ORANGE: Rgb = Rgb(0xe6, 0x9f, 0x00);
+pub(crate) const ORANGE_RIM: Rgb = Rgb(0x4a, 0x33, 0x00);
+/// The start.
+pub(crate) const GREEN: Rgb = Rgb(0x00, 0x9e, 0x73);
+/// The target.
+pub(crate) const VERMILLION: Rgb = Rgb(0xd5, 0x5e, 0x00);
+/// The cells in which a robot circles for ever.
+pub(crate) const PURPLE: Rgb = Rgb(0xcc, 0x79, 0xa7);
+pub(crate) const PURPLE_TINT: Rgb = Rgb(0xf6, 0xe1, 0xed);
+/// The active cell.
+pub(crate) const YELLOW: Rgb = Rgb(0xf0, 0xe4, 0x42);
+
+/// The wave near the target, half way, and far from it: ever darker, from yellow to blue.
+const WAVE: [Rgb; 3] = [Rgb(0xff, 0xf3, 0xbf), Rgb(0xd8, 0xec, 0xdc), Rgb(0xc6, 0xcc, 0xea)];
+
+impl Rgb {
+    /// The colour `share` (0 to 1) of the way to another.
+    pub(crate) fn mix(self, other: Self, share: f64) -> Self {
+        let channel = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share).round() as u8;
+        Self(channel(self.0, other.0), channel(self.1, other.1), channel(self.2, other.2))
+    }
+
+    /// The colour as SVG writes it, in the short form where there is one.
+    pub(crate) fn hex(self) -> String {
+        let Self(r, g, b) = self;
+        if [r, g, b].iter().all(|channel| channel >> 4 == channel & 15) {
+            return format!("#{:x}{:x}{:x}", r & 15, g & 15, b & 15);
+        }
+        format!("#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// The tint of a cell that the wave reached after `share` (0 to 1) of its run.
+pub(crate) fn wave(share: f64) -> Rgb {
+    let share = 2.0 * share.clamp(0.0, 1.0);
+    if share < 1.0 { WAVE[0].mix(WAVE[1], share) } else { WAVE[1].mix(WAVE[2], share - 1.0) }
+}

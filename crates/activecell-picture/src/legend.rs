@@ -1,0 +1,144 @@
+//! The footer: scale bar and legend, in as many rows as they need.
+
+use crate::colour::{self, BLUE, BLUE_TINT, EDGE, OBSTACLE, ORANGE_RIM, PURPLE, PURPLE_TINT, TEXT, YELLOW};
+use crate::font;
+use crate::layout::{Layout, round_length};
+use crate::route;
+use crate::scene::{Line, Point, Shape, Text};
+use activecell::Map;
+
+/// Something that the legend explains.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Key {
+    Start,
+    Target,
+    Route,
+    Turn,
+    Trapped,
+    Active,
+    Wave,
+    Obstacle,
+}
+
+/// Swatches of the wave's colours.
+const SWATCHES: usize = 16;
+
+impl Key {
+    const fn label(self) -> &'static str {
+        match self {
+            Self::Start => "start",
+            Self::Target => "target",
+            Self::Route => "route",
+            Self::Turn => "turn",
+            Self::Trapped => "trapped",
+            Self::Active => "active cell",
+            Self::Wave => "wave, near to far",
+            Self::Obstacle => "obstacle",
+        }
+    }
+
+    /// Width of the icon, in multiples of the text's size.
+    const fn icon_width(self) -> f64 {
+        match self {
+            Self::Route | Self::Trapped => 2.0,
+            Self::Wave => 4.0,
+            Self::Turn => 0.8,
+            _ => 1.2,
+        }
+    }
+
+    /// Draws the icon about (x + width / 2, y).
+    fn icon(self, shapes: &mut Vec<Shape>, [x, y]: Point, size: f64) {
+        let width = self.icon_width() * size;
+        let middle = [x + width / 2.0, y];
+        let band = |shapes: &mut Vec<Shape>, fill, line: Line| {
+            shapes.push(Shape::area(vec![rectangle(x, y - 0.5 * size, width, size)], fill));
+            shapes.push(Shape::lines(vec![vec![[x + 3.0, y], [x + width - 3.0, y]]], line));
+        };
+        match self {
+            Self::Start => route::start_mark(shapes, middle, 0.62 * size),
+            Self::Target => route::target_mark(shapes, middle, 0.62 * size),
+            Self::Turn => shapes.push(route::turn_dot(middle, 0.3 * size)),
+            Self::Active => shapes.push(active_disc(middle, 0.45 * size)),
+            Self::Route => band(shapes, BLUE_TINT, Line::new(BLUE, 0.26 * size)),
+            Self::Trapped => {
+                let line = Line { colour: PURPLE, width: 0.3 * size, dash: Some(0.4 * size) };
+                band(shapes, PURPLE_TINT, line);
+            }
+            Self::Wave => {
+                let step = width / SWATCHES as f64;
+                for i in 0..SWATCHES {
+                    let tint = colour::wave(i as f64 / (SWATCHES - 1) as f64);
+                    let left = x + i as f64 * step;
+                    // Each swatch reaches below all that follow: no seams.
+                    let rest = x + width - left;
+                    shapes.push(Shape::area(vec![rectangle(left, y - 0.5 * size, rest, size)], tint));
+                }
+                outline(shapes, rectangle(x, y - 0.5 * size, width, size));
+            }
+            Self::Obstacle => {
+                let side = 0.95 * size;
+                let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
+                shapes.push(Shape::area(vec![square], OBSTACLE));
+            }
+        }
+    }
+}
+
+/// The cell that is active now.
+pub(crate) fn active_disc(centre: Point, radius: f64) -> Shape {
+    Shape::Disc { centre, radius, fill: YELLOW, line: Some(Line::new(ORANGE_RIM, (radius * 0.2).max(1.4))) }
+}
+
+fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Point> {
+    vec![[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
+}
+
+fn outline(shapes: &mut Vec<Shape>, corners: Vec<Point>) {
+    let line = Some(Line::new(EDGE, 1.0));
+    shapes.push(Shape::Path { runs: vec![corners], closed: true, fill: None, line });
+}
+
+/// The footer's shapes below `top`, and its height.
+pub(crate) fn footer(layout: &Layout, map: &Map, keys: &[Key], top: f64) -> (Vec<Shape>, f64) {
+    let size = layout.style.text_size;
+    let (left, right) = (layout.style.margin, layout.width - layout.style.margin);
+    let (gap, space) = (1.7 * size, 0.5 * size);
+    let row = 2.0 * size;
+    let mut shapes = Vec::new();
+    let mut at = [left, top + row / 2.0];
+    at[0] += scale_bar(&mut shapes, layout, map, at) + gap;
+    for key in keys {
+        let width = key.icon_width() * size + space + font::width(key.label(), size, false);
+        if at[0] + width > right && at[0] > left {
+            at = [left, at[1] + row];
+        }
+        key.icon(&mut shapes, at, size);
+        text(&mut shapes, [at[0] + key.icon_width() * size + space, at[1]], size, key.label());
+        at[0] += width + gap;
+    }
+    (shapes, at[1] + row / 2.0 - top)
+}
+
+/// A bar of a round length, about a fifth of the map; returns its width with the label.
+fn scale_bar(shapes: &mut Vec<Shape>, layout: &Layout, map: &Map, [x, y]: Point) -> f64 {
+    let size = layout.style.text_size;
+    let metre = layout.cell / map.frame().cell_m;
+    let (metres, label) = round_length((layout.map_size[0] / 5.0).clamp(64.0, 220.0) / metre);
+    let length = metres * metre;
+    let tick = 0.32 * size;
+    let ends = [x, x + length].map(|x| vec![[x, y - tick], [x, y + tick]]);
+    let mut runs = vec![vec![[x, y], [x + length, y]]];
+    runs.extend(ends);
+    shapes.push(Shape::lines(runs, Line::new(TEXT, 1.6)));
+    let space = 0.6 * size;
+    text(shapes, [x + length + space, y], size, &label);
+    length + space + font::width(&label, size, false)
+}
+
+/// Text whose middle is at height y.
+fn text(shapes: &mut Vec<Shape>, [x, y]: Point, size: f64, text: &str) {
+    let at = [x, y + 0.36 * size];
+    let content = text.to_owned();
+    shapes.push(Shape::Text(Text { at, size, centred: false, bold: false, colour: TEXT, content }));
+}
