@@ -56,16 +56,16 @@ pub(crate) struct MapArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) lattice: LatticeArg,
     /// Re-tile the floor to cells of this many metres; without it each pixel or character is one cell
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) cell: Option<f64>,
     /// The radius in metres of the robot that must fit, with --cell [default: the robot file's, else half a cell]
-    #[arg(long, value_name = "M", requires = "cell")]
+    #[arg(long, value_name = "M", requires = "cell", allow_negative_numbers = true)]
     pub(crate) radius: Option<f64>,
     /// The share of a cell that may be occupied, 0 to 1, with --cell; at 1 only the robot's own disc counts
     #[arg(long, value_name = "SHARE", requires = "cell", default_value_t = 1.0)]
     pub(crate) tolerance: f64,
     /// Metres per pixel or character of a map that does not say [default: 0.05 for images, 1 for .map and .txt]
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) resolution: Option<f64>,
     /// What unknown pixels of an image are
     #[arg(long, value_enum, default_value_t)]

@@ -60,14 +60,14 @@ pub enum Error {
         advice: &'static str,
     },
     /// The operating system refused.
-    #[error("{}", io_message(path, action, source))]
+    #[error("{}", io_message(path, action, cause))]
     Io {
         /// The file or folder.
         path: PathBuf,
         /// What was tried: `read`, `write`.
         action: &'static str,
         /// What the system said.
-        source: std::io::Error,
+        cause: std::io::Error,
     },
     /// The file's ending names no format that is known here.
     #[error(
@@ -79,12 +79,12 @@ pub enum Error {
         path: PathBuf,
     },
     /// Another error, with the file in which it was found.
-    #[error("{}{}{source}", shown(path), if source.place() == Place::File { ": " } else { " " })]
+    #[error("{}{}{cause}", shown(path), if cause.place() == Place::File { ": " } else { " " })]
     InFile {
         /// The file.
         path: PathBuf,
         /// What is wrong in it.
-        source: Box<Error>,
+        cause: Box<Error>,
     },
 }
 
@@ -109,7 +109,7 @@ impl Error {
     pub fn in_file(self, path: &Path) -> Self {
         match self {
             named @ (Self::Io { .. } | Self::UnknownFormat { .. } | Self::InFile { .. }) => named,
-            other => Self::InFile { path: path.to_owned(), source: Box::new(other) },
+            other => Self::InFile { path: path.to_owned(), cause: Box::new(other) },
         }
     }
 
@@ -117,7 +117,7 @@ impl Error {
     pub fn place(&self) -> Place {
         match self {
             Self::BadFormat { place, .. } => *place,
-            Self::InFile { source, .. } => source.place(),
+            Self::InFile { cause, .. } => cause.place(),
             _ => Place::File,
         }
     }
@@ -184,16 +184,16 @@ fn escaped(text: &str) -> String {
     out
 }
 
-fn io_message(path: &Path, action: &str, source: &std::io::Error) -> String {
+fn io_message(path: &Path, action: &str, cause: &std::io::Error) -> String {
     use std::io::ErrorKind as Kind;
     let path = shown(path);
-    match source.kind() {
+    match cause.kind() {
         Kind::NotFound if action == "read" => format!("{path}: there is no such file; check the path"),
         Kind::NotFound => format!("{path}: its folder does not exist; make the folder first"),
         Kind::IsADirectory => format!("{path}: this is a folder; name a file"),
         Kind::PermissionDenied => format!("{path}: no permission to {action} it; change its permissions"),
         Kind::StorageFull => format!("{path}: the disk is full; make room and try again"),
-        _ => format!("{path}: cannot {action} it: {}", escaped(&source.to_string())),
+        _ => format!("{path}: cannot {action} it: {}", escaped(&cause.to_string())),
     }
 }
 

@@ -17,7 +17,7 @@ pub const MAX_MAP_BYTES: u64 = 1 << 30;
 /// # Errors
 /// [`Error::TooLarge`], before anything is read where the length is known; [`Error::Io`].
 pub fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Error> {
-    let failed = |source| Error::Io { path: path.to_owned(), action: "read", source };
+    let failed = |cause| Error::Io { path: path.to_owned(), action: "read", cause };
     let too_large = || {
         let advice = "choose another file, or a part of it";
         Error::TooLarge { limit: limit_bytes, advice }.in_file(path)
@@ -52,7 +52,7 @@ pub fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Error> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    write_whole(path, bytes).map_err(|source| Error::Io { path: path.to_owned(), action: "write", source })
+    write_whole(path, bytes).map_err(|cause| Error::Io { path: path.to_owned(), action: "write", cause })
 }
 
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
@@ -198,7 +198,7 @@ fn read_ros(path: &Path, reading: ros::Reading) -> Result<Map, Error> {
     let image = match read_bytes(&image_path, MAX_MAP_BYTES) {
         Ok(bytes) => raster::read_image(&bytes).map_err(|error| error.in_file(&image_path))?,
         // Who named that file?
-        Err(source) => return Err(Error::InFile { path: path.to_owned(), source: Box::new(source) }),
+        Err(cause) => return Err(Error::InFile { path: path.to_owned(), cause: Box::new(cause) }),
     };
     ros::to_map(&image, &yaml, &reading)
 }

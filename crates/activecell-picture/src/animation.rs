@@ -30,16 +30,14 @@ const TRAIL_PX: f64 = 4.0;
 
 /// Makes the animation of a route.
 pub(crate) fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
-    let figure = Figure::new(picture.map, picture.title, MOVING);
+    let figure = Figure::new(picture.map, picture.floor, picture.title, MOVING);
     let layout = &figure.layout;
     let drawn = Route::new(layout, picture);
     let mut keys = drawn.keys(picture.wave.is_some());
     if !picture.cells.is_empty() {
         keys.push(Key::Active);
     }
-    if figure.has_obstacles() {
-        keys.push(Key::Obstacle);
-    }
+    keys.extend(figure.keys());
     let mut page = figure.page(&keys, Some(picture));
     page.shapes.push(figure.floor());
     let mut stage = Stage { below: raster::draw(&page)?, above: raster::canvas(&page)? };
@@ -126,7 +124,7 @@ fn tint(stage: &mut Stage, layout: &Layout, map: &Map, cell: Cell) {
     }
     raster::draw_shapes(
         &mut stage.below,
-        &[Shape::area(vec![layout.corners(cell, 1.0)], crate::colour::BLUE_TINT)],
+        &[Shape::area(vec![layout.corners(cell)], crate::colour::BLUE_TINT)],
     );
 }
 

@@ -9,6 +9,8 @@ pub(crate) const FLOOR: Rgb = Rgb(0xf8, 0xf8, 0xf5);
 pub(crate) const GRID: Rgb = Rgb(0xdf, 0xe1, 0xe0);
 pub(crate) const EDGE: Rgb = Rgb(0xa9, 0xb0, 0xb6);
 pub(crate) const OBSTACLE: Rgb = Rgb(0x3d, 0x48, 0x52);
+/// Cells without an obstacle's mark of their own in which the robot does not fit.
+pub(crate) const CLOSED: Rgb = Rgb(0xcb, 0xd0, 0xd4);
 pub(crate) const TEXT: Rgb = Rgb(0x22, 0x29, 0x2f);
 /// The route.
 pub(crate) const BLUE: Rgb = Rgb(0x00, 0x72, 0xb2);

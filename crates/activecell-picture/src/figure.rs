@@ -1,7 +1,7 @@
 //! The figure: page, title, floor, obstacles, wave and footer, put together into a scene.
 
 use crate::RoutePicture;
-use crate::colour::{self, EDGE, FLOOR, GRID, OBSTACLE, PAGE, TEXT};
+use crate::colour::{self, CLOSED, EDGE, FLOOR, GRID, OBSTACLE, PAGE, TEXT};
 use crate::font;
 use crate::layout::{Layout, Style};
 use crate::legend::{self, Key};
@@ -20,17 +20,19 @@ const BANDS: u8 = 12;
 /// A map on its page.
 pub(crate) struct Figure<'a> {
     pub(crate) map: &'a Map,
+    /// The floor that the map was made of, if its walls are to be seen.
+    behind: Option<&'a Map>,
     pub(crate) layout: Layout,
     title: String,
     sampled: Sampled<'a>,
 }
 
 impl<'a> Figure<'a> {
-    pub(crate) fn new(map: &'a Map, title: &str, style: Style) -> Self {
+    pub(crate) fn new(map: &'a Map, behind: Option<&'a Map>, title: &str, style: Style) -> Self {
         let title = printable(title);
         let layout = Layout::new(map, &title, style);
         let sampled = Sampled::for_drawing(map, layout.cell);
-        Self { map, layout, title, sampled }
+        Self { map, behind, layout, title, sampled }
     }
 
     /// The scene of a still picture, with a route or without.
@@ -47,9 +49,7 @@ impl<'a> Figure<'a> {
             above = drawn.lines_and_marks();
             keys = drawn.keys(picture.wave.is_some());
         }
-        if self.has_obstacles() {
-            keys.push(Key::Obstacle);
-        }
+        keys.extend(self.keys());
         shapes.extend(self.fixed());
         shapes.extend(above);
         let mut scene = self.page(&keys, picture);
@@ -99,8 +99,12 @@ impl<'a> Figure<'a> {
         text
     }
 
-    pub(crate) fn has_obstacles(&self) -> bool {
-        self.map.free_cells() < self.map.cells()
+    /// What the legend says of the map itself.
+    pub(crate) fn keys(&self) -> impl Iterator<Item = Key> {
+        let walls = self.behind.unwrap_or(self.map);
+        let obstacle = has_obstacles(walls).then_some(Key::Obstacle);
+        let closed = (self.behind.is_some() && has_obstacles(self.map)).then_some(Key::Closed);
+        obstacle.into_iter().chain(closed)
     }
 
     /// The floor, under everything.
@@ -114,9 +118,11 @@ impl<'a> Figure<'a> {
         if self.layout.cell >= GRID_PX {
             shapes.push(Shape::lines(self.grid(), Line::new(GRID, 1.0)));
         }
-        if self.has_obstacles() {
-            shapes.push(Shape::area(self.traced(|cell| self.sampled.is_obstacle(cell)), OBSTACLE));
+        if has_obstacles(self.map) {
+            let colour = if self.behind.is_some() { CLOSED } else { OBSTACLE };
+            shapes.push(Shape::area(self.traced(|cell| self.sampled.is_obstacle(cell)), colour));
         }
+        shapes.extend(self.behind.map(|floor| Shape::area(self.walls(floor), OBSTACLE)));
         let line = Some(Line::new(EDGE, 1.0));
         shapes.push(Shape::Path { runs: self.traced(|_| true), closed: true, fill: None, line });
         shapes
@@ -126,6 +132,23 @@ impl<'a> Figure<'a> {
         let sampled = &self.sampled;
         let loops = outline::trace(sampled.lattice, sampled.width(), sampled.height(), inside);
         self.layout.loops(sampled, &loops)
+    }
+
+    /// The outlines of what is occupied on the floor itself, over the cells that were made of it.
+    fn walls(&self, floor: &Map) -> Vec<Vec<Point>> {
+        let sampled =
+            Sampled::for_drawing(floor, self.layout.cell * floor.frame().cell_m / self.map.frame().cell_m);
+        let loops = outline::trace(sampled.lattice, sampled.width(), sampled.height(), |cell| {
+            sampled.is_obstacle(cell)
+        });
+        let corner = |&(x, y): &(i64, i64)| {
+            // The corners of pixels come in half pixels from the top left.
+            let half = f64::from(sampled.block) * floor.frame().cell_m / 2.0;
+            let [width_m, height_m] = floor.size_m();
+            let local = [(x as f64 * half).min(width_m), (height_m - y as f64 * half).max(0.0)];
+            self.layout.floor_point(self.map, floor.frame().to_floor(local))
+        };
+        loops.iter().map(|corners| corners.iter().map(corner).collect()).collect()
     }
 
     /// The lines between cells, as long as they can be. The map's own edge is drawn elsewhere.
@@ -195,4 +218,8 @@ impl<'a> Figure<'a> {
         }
         levels
     }
+}
+
+fn has_obstacles(map: &Map) -> bool {
+    map.free_cells() < map.cells()
 }

@@ -4,7 +4,7 @@ use crate::font;
 use crate::outline::Loop;
 use crate::sample::Sampled;
 use crate::scene::Point;
-use activecell::{Cell, Lattice, Map};
+use activecell::{Cell, Lattice, Map, PointM};
 
 /// The measures of one kind of picture, in pixels.
 #[derive(Debug, Clone, Copy)]
@@ -82,7 +82,7 @@ impl Layout {
         // The map's size in cells from side to side.
         let [across, down] = map.size_m().map(|metres| metres / map.frame().cell_m);
         let cell = cell_px(map.lattice(), [across, down], &style);
-        let unit = { map.lattice().unit_m() };
+        let unit = map.lattice().unit_m();
         let map_size = [across * cell, down * cell];
         let full_width = font::width(title, style.title_size, true);
         let title_width = full_width.min(style.title_width);
@@ -108,18 +108,22 @@ impl Layout {
         [self.origin[0] + x as f64 * self.unit[0], self.origin[1] + y as f64 * self.unit[1]]
     }
 
+    /// The point of the floor, in metres.
+    pub(crate) fn floor_point(&self, map: &Map, point_m: PointM) -> Point {
+        let [x, y] = map.frame().to_mosaic(point_m);
+        let px = self.cell / map.frame().cell_m;
+        [self.origin[0] + x * px, self.origin[1] + (map.size_m()[1] - y) * px]
+    }
+
     /// The middle of a cell.
     pub(crate) fn centre(&self, cell: Cell) -> Point {
         self.point(self.lattice.centre(cell))
     }
 
-    /// The corners of a cell, drawn towards its middle to `share` of its size.
-    pub(crate) fn corners(&self, cell: Cell, share: f64) -> Vec<Point> {
-        let [x, y] = self.centre(cell);
-        let corner = |&(dx, dy): &(i64, i64)| {
-            [x + share * dx as f64 * self.unit[0], y + share * dy as f64 * self.unit[1]]
-        };
-        self.lattice.corners().iter().map(corner).collect()
+    /// The corners of a cell.
+    pub(crate) fn corners(&self, cell: Cell) -> Vec<Point> {
+        let (x, y) = self.lattice.centre(cell);
+        self.lattice.corners().iter().map(|&(dx, dy)| self.point((x + dx, y + dy))).collect()
     }
 
     /// Loops of a sampled map's blocks, on the page.

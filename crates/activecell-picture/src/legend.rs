@@ -1,6 +1,8 @@
 //! The footer: scale bar and legend, in as many rows as they need.
 
-use crate::colour::{self, BLUE, BLUE_TINT, EDGE, OBSTACLE, ORANGE_RIM, PURPLE, PURPLE_TINT, TEXT, YELLOW};
+use crate::colour::{
+    self, BLUE, BLUE_TINT, CLOSED, EDGE, OBSTACLE, ORANGE_RIM, PURPLE, PURPLE_TINT, TEXT, YELLOW,
+};
 use crate::font;
 use crate::layout::{Layout, round_length};
 use crate::route;
@@ -18,6 +20,7 @@ pub(crate) enum Key {
     Active,
     Wave,
     Obstacle,
+    Closed,
 }
 
 /// Swatches of the wave's colours.
@@ -34,6 +37,7 @@ impl Key {
             Self::Active => "active cell",
             Self::Wave => "wave, near to far",
             Self::Obstacle => "obstacle",
+            Self::Closed => "no room",
         }
     }
 
@@ -76,10 +80,11 @@ impl Key {
                 }
                 outline(shapes, rectangle(x, y - 0.5 * size, width, size));
             }
-            Self::Obstacle => {
+            Self::Obstacle | Self::Closed => {
+                let fill = if self == Self::Obstacle { OBSTACLE } else { CLOSED };
                 let side = 0.95 * size;
                 let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
-                shapes.push(Shape::area(vec![square], OBSTACLE));
+                shapes.push(Shape::area(vec![square], fill));
             }
         }
     }

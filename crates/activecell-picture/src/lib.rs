@@ -8,6 +8,7 @@
 //! let cells = [Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0), Cell::new(2, 1)];
 //! let picture = RoutePicture {
 //!     map: &map,
+//!     floor: None,
 //!     title: "a small floor",
 //!     from: cells[0],
 //!     to: cells[3],
@@ -54,6 +55,8 @@ use figure::Figure;
 pub struct RoutePicture<'a> {
     /// The map.
     pub map: &'a Map,
+    /// The floor from which the map was re-tiled, if it was: its walls are drawn over the cells.
+    pub floor: Option<&'a Map>,
     /// The line above the map; shortened with `…` if it is too long. Control characters are left out.
     pub title: &'a str,
     /// Where the robot starts, marked S.
@@ -102,7 +105,7 @@ pub fn svg(picture: &RoutePicture<'_>) -> String {
 /// # use activecell::{Cell, Lattice, Map};
 /// # use activecell_picture::{RoutePicture, png};
 /// # let map = Map::parse(Lattice::Hex, "...\n.#.\n...")?;
-/// # let picture = RoutePicture { map: &map, title: "", from: Cell::new(0, 0), to: Cell::new(2, 2),
+/// # let picture = RoutePicture { map: &map, floor: None, title: "", from: Cell::new(0, 0), to: Cell::new(2, 2),
 /// #     cells: &[], turns: &[], cycle: &[], wave: None };
 /// assert!(png(&picture)?.starts_with(b"\x89PNG"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -129,15 +132,7 @@ pub fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
 /// # Ok::<(), activecell::Error>(())
 /// ```
 pub fn map_svg(map: &Map, title: &str) -> String {
-    svg::write(&Figure::new(map, title, layout::STILL).still(None))
-}
-
-/// A map alone as a PNG file, with a scale bar.
-///
-/// # Errors
-/// [`Error::Canvas`], [`Error::Encoding`].
-pub fn map_png(map: &Map, title: &str) -> Result<Vec<u8>, Error> {
-    encode_png(&Figure::new(map, title, layout::STILL).still(None))
+    svg::write(&Figure::new(map, None, title, layout::STILL).still(None))
 }
 
 /// The route as text for a terminal, at most `columns` wide and `rows` high; lines end in LF.
@@ -151,7 +146,7 @@ pub fn map_png(map: &Map, title: &str) -> Result<Vec<u8>, Error> {
 /// # use activecell_picture::{RoutePicture, terminal};
 /// let map = Map::parse(Lattice::Square, "...\n.#.")?;
 /// let cells = [Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0), Cell::new(2, 1)];
-/// let picture = RoutePicture { map: &map, title: "", from: cells[0], to: cells[3], cells: &cells,
+/// let picture = RoutePicture { map: &map, floor: None, title: "", from: cells[0], to: cells[3], cells: &cells,
 ///     turns: &[], cycle: &[], wave: None };
 /// assert_eq!(terminal(&picture, 80, 24, false), " S → ↓\n .## F\n");
 /// # Ok::<(), activecell::Error>(())
@@ -161,7 +156,7 @@ pub fn terminal(picture: &RoutePicture<'_>, columns: usize, rows: usize, colour:
 }
 
 fn still(picture: &RoutePicture<'_>) -> scene::Scene {
-    Figure::new(picture.map, picture.title, layout::STILL).still(Some(picture))
+    Figure::new(picture.map, picture.floor, picture.title, layout::STILL).still(Some(picture))
 }
 
 fn encode_png(scene: &scene::Scene) -> Result<Vec<u8>, Error> {

@@ -1,8 +1,8 @@
 //! The palette of animations: 256 colours made of the pictures' own colours and their blends.
 
 use crate::colour::{
-    BLUE, BLUE_TINT, EDGE, FLOOR, GREEN, GRID, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE, PURPLE_TINT, Rgb,
-    TEXT, VERMILLION, YELLOW, wave,
+    BLUE, BLUE_TINT, CLOSED, EDGE, FLOOR, GREEN, GRID, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE,
+    PURPLE_TINT, Rgb, TEXT, VERMILLION, YELLOW, wave,
 };
 
 /// The tints of the wave in an animation.
@@ -39,6 +39,7 @@ impl Palette {
             GRID,
             EDGE,
             OBSTACLE,
+            CLOSED,
             TEXT,
             BLUE,
             BLUE_TINT,

@@ -65,7 +65,7 @@ impl<'a> Route<'a> {
             let mut cells = cells.to_vec();
             cells.sort_unstable();
             cells.dedup();
-            Shape::area(cells.iter().map(|&cell| self.layout.corners(cell, 1.0)).collect(), colour)
+            Shape::area(cells.iter().map(|&cell| self.layout.corners(cell)).collect(), colour)
         };
         vec![tint(&self.cells, BLUE_TINT), tint(&self.cycle, PURPLE_TINT)]
     }

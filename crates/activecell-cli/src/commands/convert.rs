@@ -11,7 +11,7 @@ pub(crate) fn run(args: &ConvertArgs, terminal: &Terminal) -> anyhow::Result<()>
     if !is_picture {
         MapFormat::of(&args.out)?;
     }
-    let (map, _) = load::map(&args.map, None, terminal)?;
+    let map = load::map(&args.map, None, terminal)?.map;
     if is_picture {
         let title = args.map.path.file_name().unwrap_or_default().to_string_lossy();
         files::write_atomically(&args.out, map_svg(&map, &title).as_bytes())?;

@@ -1,6 +1,6 @@
 //! `activecell info`: what a map is.
 
-use super::load;
+use super::load::{self, Loaded};
 use crate::args::InfoArgs;
 use crate::terminal::Terminal;
 use activecell_formats::files::MapFormat;
@@ -24,7 +24,7 @@ struct Report {
 }
 
 pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
-    let (map, format) = load::map(&args.map, None, terminal)?;
+    let Loaded { map, format, .. } = load::map(&args.map, None, terminal)?;
     let regions = map.regions();
     let frame = map.frame();
     let report = Report {

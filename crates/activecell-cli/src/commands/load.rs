@@ -7,12 +7,18 @@ use activecell_formats::files::{self, MapFormat, ReadOptions};
 use activecell_formats::{robot, ros};
 use std::path::Path;
 
+/// A map as it was asked for.
+pub(crate) struct Loaded {
+    /// The cells.
+    pub(crate) map: Map,
+    /// The floor that they were made of, if it was re-tiled.
+    pub(crate) floor: Option<Map>,
+    /// The format of the file.
+    pub(crate) format: MapFormat,
+}
+
 /// Reads the map and covers it with the cells that the arguments ask for.
-pub(crate) fn map(
-    args: &MapArgs,
-    robot: Option<&Robot>,
-    terminal: &Terminal,
-) -> anyhow::Result<(Map, MapFormat)> {
+pub(crate) fn map(args: &MapArgs, robot: Option<&Robot>, terminal: &Terminal) -> anyhow::Result<Loaded> {
     let rules = match args.map_rules {
         RulesArg::Humble => ros::Rules::Humble,
         RulesArg::Jazzy => ros::Rules::Jazzy,
@@ -31,7 +37,7 @@ pub(crate) fn map(
                 image.frame().cell_m
             ));
         }
-        return Ok((image.on(lattice), format));
+        return Ok(Loaded { map: image.on(lattice), floor: None, format });
     };
     let radius_m = args.radius.or(robot.map(|robot| robot.radius_m)).unwrap_or(cell_m / 2.0);
     let tiling = Tiling { lattice, cell_m, radius_m, tolerance: args.tolerance };
@@ -41,7 +47,7 @@ pub(crate) fn map(
         tiled.width(),
         tiled.height()
     ));
-    Ok((tiled, format))
+    Ok(Loaded { map: tiled, floor: Some(image), format })
 }
 
 /// The most bytes that a robot file may have.

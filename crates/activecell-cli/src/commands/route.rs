@@ -1,6 +1,7 @@
 //! `activecell route`: one robot, from here to there.
 
-use super::{Done, load};
+use super::Done;
+use super::load::{self, Loaded};
 use crate::args::{DrawArg, RouteArgs, heading};
 use crate::terminal::Terminal;
 use activecell::{Cell, Field, Map, Outcome, Program, Robot, Route, Rule, check_program, check_route};
@@ -16,6 +17,7 @@ const PRINTED_WAYPOINTS: usize = 40;
 /// What there is to show of a task.
 struct Solved {
     map: Map,
+    floor: Option<Map>,
     robot: Robot,
     from: Cell,
     to: Cell,
@@ -49,7 +51,7 @@ pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done>
 
 fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let given = args.robot.as_deref().map(load::robot).transpose()?;
-    let (map, _) = load::map(&args.map, given.as_ref(), terminal)?;
+    let Loaded { map, floor, .. } = load::map(&args.map, given.as_ref(), terminal)?;
     let robot = given.unwrap_or_default();
     let facing = args.heading.as_deref().map(|name| heading(map.lattice(), name)).transpose()?;
     let (from, to) = (args.from.on(&map)?, args.to.on(&map)?);
@@ -73,7 +75,7 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     check_route(&map, route.cells(), from, end)?;
     check_program(&map, &robot, &program, route.cells())?;
     let report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
-    Ok(Solved { map, robot, from, to, field, route, program, report })
+    Ok(Solved { map, floor, robot, from, to, field, route, program, report })
 }
 
 /// The result for people.
@@ -137,7 +139,10 @@ fn title(args: &RouteArgs, solved: &Solved) -> String {
         activecell::Lattice::Hex => "hexagons",
     };
     let cell_m = solved.map.frame().cell_m;
-    format!("{name} · {lattice} of {cell_m} m · {}: {}", solved.report.rule, summary(&solved.report))
+    let RouteReport { rule, outcome, steps, turns, length_m, .. } = &solved.report;
+    format!(
+        "{name} · {lattice} of {cell_m} m · {rule}: {outcome}, {steps} steps, {turns} turns, {length_m:.1} m"
+    )
 }
 
 /// Calls `with` with the picture of the solved task.
@@ -149,6 +154,7 @@ fn with_picture<T>(solved: &Solved, title: &str, with: impl FnOnce(&RoutePicture
     let turns = solved.route.turns();
     with(&RoutePicture {
         map: &solved.map,
+        floor: solved.floor.as_ref(),
         title,
         from: solved.from,
         to: solved.to,

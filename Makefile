@@ -1,0 +1,50 @@
+# make demo    build, route a robot across a floor plan on both lattices with all three rules
+# make test    format, lints, documentation, all tests
+# make deps    what only root can install (optional; nothing so far)
+# make docs    the pictures of the documents, drawn anew
+# make clean   remove everything that was built
+
+ACTIVECELL := target/release/activecell
+OFFICE := maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m
+
+.PHONY: demo test deps docs clean
+
+demo: $(ACTIVECELL)
+	@mkdir -p out
+	@for lattice in square hex; do for rule in published learning wave; do \
+	    printf '\n== office, %s, rule %s\n' $$lattice $$rule; \
+	    $(ACTIVECELL) route $(OFFICE) --lattice $$lattice --rule $$rule --draw never \
+	        --save out/$$lattice-$$rule.json \
+	        --picture out/$$lattice-$$rule.svg --picture out/$$lattice-$$rule.png \
+	        --picture out/$$lattice-$$rule.gif; \
+	    status=$$?; if [ $$status -ne 0 ] && [ $$status -ne 3 ]; then exit $$status; fi; \
+	done; done
+	@printf '\n== office, squares, in the terminal\n'
+	@$(ACTIVECELL) route $(OFFICE) --draw always | head -26
+	@printf '\nThe pictures are in out/: .svg and .png show the route, .gif the wave and the robot moving.\n'
+	@ls out/*.svg out/*.png out/*.gif
+
+$(ACTIVECELL): FORCE
+	@echo "building (a minute the first time) …"
+	@cargo build --release --quiet -p activecell-cli
+FORCE:
+
+test:
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --quiet -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
+	cargo test --workspace -- --nocapture --test-threads 2
+
+deps:
+	@echo "nothing to install: all tests run with the Rust toolchain alone"
+
+docs: $(ACTIVECELL)
+	$(ACTIVECELL) route $(OFFICE) --draw never --picture docs/pictures/office-square.png -q > /dev/null
+	$(ACTIVECELL) route $(OFFICE) --draw never --lattice hex --picture docs/pictures/office-hex.png --picture docs/pictures/office-hex.gif -q > /dev/null
+	$(ACTIVECELL) route maps/detour.txt --from S --to F --rule published --draw never --picture docs/pictures/detour.svg > /dev/null
+	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
+	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
+
+clean:
+	cargo clean
+	rm -rf out
