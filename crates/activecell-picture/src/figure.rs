@@ -122,9 +122,9 @@ impl<'a> Figure<'a> {
             let colour = if self.behind.is_some() { CLOSED } else { OBSTACLE };
             shapes.push(Shape::area(self.traced(|cell| self.sampled.is_obstacle(cell)), colour));
         }
-        shapes.extend(self.behind.map(|floor| Shape::area(self.walls(floor), OBSTACLE)));
         let line = Some(Line::new(EDGE, 1.0));
         shapes.push(Shape::Path { runs: self.traced(|_| true), closed: true, fill: None, line });
+        shapes.extend(self.behind.map(|floor| Shape::area(self.walls(floor), OBSTACLE)));
         shapes
     }
 
