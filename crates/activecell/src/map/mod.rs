@@ -153,16 +153,25 @@ impl Map {
     /// # Errors
     /// [`Error::OutsideMap`], [`Error::StartOccupied`], [`Error::TargetOccupied`].
     pub fn check_task(&self, from: Cell, to: Cell) -> Result<(), Error> {
-        for cell in [from, to] {
-            if !self.contains(cell) {
-                return Err(Error::OutsideMap { cell, width: self.width(), height: self.height() });
-            }
+        if !self.contains(from) {
+            return Err(Error::OutsideMap { cell: from, width: self.width(), height: self.height() });
         }
         if !self.is_free(from) {
             return Err(Error::StartOccupied { cell: from, nearest: self.nearest_free(from) });
         }
-        if !self.is_free(to) {
-            return Err(Error::TargetOccupied { cell: to, nearest: self.nearest_free(to) });
+        self.check_target(to)
+    }
+
+    /// Checks that a robot can stand at the target.
+    ///
+    /// # Errors
+    /// [`Error::OutsideMap`], [`Error::TargetOccupied`].
+    pub fn check_target(&self, cell: Cell) -> Result<(), Error> {
+        if !self.contains(cell) {
+            return Err(Error::OutsideMap { cell, width: self.width(), height: self.height() });
+        }
+        if !self.is_free(cell) {
+            return Err(Error::TargetOccupied { cell, nearest: self.nearest_free(cell) });
         }
         Ok(())
     }

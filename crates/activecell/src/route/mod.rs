@@ -121,7 +121,7 @@ impl Map {
 }
 
 impl Field {
-    /// A shortest route from `from` to the field's target, and among the shortest one with the fewest turns.
+    /// A shortest route from `from` to the nearest target, and among the shortest one with the fewest turns.
     ///
     /// Where the wave did not come the outcome is [`Outcome::Unreachable`] and the route is the start alone.
     pub fn route(&self, from: Cell) -> Route {

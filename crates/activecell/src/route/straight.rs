@@ -29,11 +29,14 @@ pub(super) fn fewest_turns(field: &Field, from: Cell) -> Vec<Cell> {
     let lattice = field.lattice();
     let mut layers = vec![vec![Entry { cell: from, turns: [0; 6] }]];
     let mut slots = vec![0; field.cells()];
-    while let Some(layer) = layers.last().filter(|layer| layer[0].cell != field.target()) {
+    while let Some(layer) = layers.last().filter(|layer| field.steps(layer[0].cell) != Some(0)) {
         layers.push(next_layer(field, layer, &mut slots));
     }
 
-    let mut cell = field.target();
+    // Of several targets the one that takes the fewest turns.
+    let least = |entry: &Entry| entry.turns.iter().copied().min();
+    let last = layers.last().and_then(|layer| layer.iter().min_by_key(|entry| least(entry)));
+    let mut cell = last.map_or(from, |entry| entry.cell);
     let mut cells = vec![cell];
     let mut entered = None;
     for pair in layers.windows(2).rev() {
