@@ -4,7 +4,7 @@
 # make docs    the pictures of the documents, drawn anew
 # make clean   remove everything that was built
 
-ACTIVECELL := target/release/activecell
+ACTIVECELL := $(or $(CARGO_TARGET_DIR),target)/release/activecell
 OFFICE := maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m
 
 .PHONY: demo test deps docs clean

@@ -8,9 +8,8 @@ use std::str::FromStr;
 const EXAMPLES: &str = "\
 Examples:
   activecell route maps/beyond.txt --from S --to F --rule published
-  activecell route maps/office.yaml --cell 0.5 --from 1.5m,1.5m --to 18m,10m --picture route.svg
-  activecell route maps/office.yaml --cell 0.5 --lattice hex --from 3,3 --to 30,5 --json
-  activecell scen arena2.map.scen --map arena2.map
+  activecell route maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m --picture route.svg
+  activecell info maps/office.yaml --cell 0.5 --radius 0.2 --lattice hex
   activecell table success
 
 Exit codes: 0 done, 1 failed, 2 wrong arguments, 3 done but the target was not reached.";
@@ -56,16 +55,16 @@ pub(crate) struct MapArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) lattice: LatticeArg,
     /// Re-tile the floor to cells of this many metres; without it each pixel or character is one cell
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = size_m)]
     pub(crate) cell: Option<f64>,
     /// The radius in metres of the robot that must fit, with --cell [default: the robot file's, else half a cell]
-    #[arg(long, value_name = "M", requires = "cell", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", requires = "cell", allow_negative_numbers = true, value_parser = radius_m)]
     pub(crate) radius: Option<f64>,
     /// The share of a cell that may be occupied, 0 to 1, with --cell; at 1 only the robot's own disc counts
-    #[arg(long, value_name = "SHARE", requires = "cell", default_value_t = 1.0)]
+    #[arg(long, value_name = "SHARE", requires = "cell", default_value_t = 1.0, allow_negative_numbers = true, value_parser = share)]
     pub(crate) tolerance: f64,
     /// Metres per pixel or character of a map that does not say [default: 0.05 for images, 1 for .map and .txt]
-    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    #[arg(long, value_name = "M", allow_negative_numbers = true, value_parser = size_m)]
     pub(crate) resolution: Option<f64>,
     /// What unknown pixels of an image are
     #[arg(long, value_enum, default_value_t)]
@@ -86,8 +85,8 @@ pub(crate) struct MapArgs {
 #[command(after_help = "\
 Examples:
   activecell route maps/detour.txt --from S --to F
-  activecell route maps/office.yaml --cell 0.5 --from 1.5m,1.5m --to 18m,10m --picture route.png --picture route.gif
-  activecell route maps/office.yaml --cell 0.4 --lattice hex --from 2,2 --to 40,8 --robot robot.toml --save run.json")]
+  activecell route maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m --picture route.gif
+  activecell route maps/office.yaml --cell 0.4 --lattice hex --from 2m,6m --to 19m,11m --robot maps/robot.toml --save run.json")]
 pub(crate) struct RouteArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
@@ -107,7 +106,7 @@ pub(crate) struct RouteArgs {
     #[arg(long, value_name = "DIR")]
     pub(crate) heading: Option<String>,
     /// Give up after this many steps (rule learning)
-    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    #[arg(long, value_name = "N", default_value_t = 100_000_000)]
     pub(crate) max_steps: usize,
     /// Write map, robot, route and program
     #[arg(long, value_name = "RUN.json")]
@@ -142,7 +141,7 @@ pub(crate) struct ScenArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) rule: RuleArg,
     /// Give up after this many steps (rule learning)
-    #[arg(long, value_name = "N", default_value_t = 10_000_000)]
+    #[arg(long, value_name = "N", default_value_t = 100_000_000)]
     pub(crate) max_steps: usize,
     /// Print one JSON object
     #[arg(long)]
@@ -290,6 +289,36 @@ pub(crate) enum DrawArg {
     Never,
 }
 
+/// A number in a range, or what it should be.
+fn number(text: &str, low: f64, high: f64) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "give a number".to_owned())?;
+    if (low..=high).contains(&value) { Ok(value) } else { Err(format!("give a number from {low} to {high}")) }
+}
+
+fn size_m(text: &str) -> Result<f64, String> {
+    number(text, 1e-6, 1e6)
+}
+
+fn radius_m(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1e6)
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    number(text, 0.0, 1.0)
+}
+
+/// A mistake in the arguments that only shows once the map is known.
+#[derive(Debug)]
+pub(crate) struct WrongArgument(pub(crate) String);
+
+impl std::fmt::Display for WrongArgument {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for WrongArgument {}
+
 /// A place as a user names it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
@@ -326,7 +355,7 @@ impl Place {
         match self {
             Self::Cell(cell) => Ok(cell),
             Self::Metres(point) => {
-                let cell = map.cell_at_m(point);
+                let cell = map.cell_at_m(inwards(map, point));
                 anyhow::ensure!(
                     map.contains(cell),
                     "the point {} m, {} m is outside the map, which {}",
@@ -343,6 +372,19 @@ impl Place {
             }),
         }
     }
+}
+
+/// A point on the map's very edge belongs to the cell inside.
+fn inwards(map: &Map, point: PointM) -> PointM {
+    let size_m = map.size_m();
+    let edge_m = 1e-9 * map.frame().cell_m.max(1.0);
+    let mut local = map.frame().to_mosaic(point);
+    for axis in 0..2 {
+        if (-edge_m..=size_m[axis] + edge_m).contains(&local[axis]) {
+            local[axis] = local[axis].clamp(edge_m, size_m[axis] - edge_m);
+        }
+    }
+    map.frame().to_floor(local)
 }
 
 /// From where to where a map reaches, in metres.
@@ -374,6 +416,40 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    /// The examples of the help texts that need no other files.
+    #[test]
+    fn the_examples_of_the_help_run() {
+        let project = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+        let folder = std::env::temp_dir().join(format!("activecell-examples-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let mut cli = Cli::command().term_width(400);
+        let mut helps = vec![cli.render_long_help().to_string()];
+        helps.extend(
+            cli.get_subcommands_mut().map(|sub| sub.clone().term_width(400).render_long_help().to_string()),
+        );
+        let text = helps.join("\n");
+        let examples: Vec<&str> = text
+            .lines()
+            .map(str::trim)
+            .filter(|line| line.starts_with("activecell ") && line.contains("maps/"))
+            .collect();
+        for example in &examples {
+            let arguments = example.split_whitespace().map(|word| match word {
+                path if path.starts_with("maps/") => format!("{project}/{path}"),
+                file if file.contains('.') && !file.starts_with(|c: char| c.is_ascii_digit()) => {
+                    folder.join(file).display().to_string()
+                }
+                other => other.to_owned(),
+            });
+            let cli = Cli::try_parse_from(arguments).unwrap_or_else(|error| panic!("{example}: {error}"));
+            let terminal = crate::terminal::Terminal::new(true, false);
+            let done = crate::commands::run(cli.command, &terminal);
+            assert!(matches!(done, Ok(crate::commands::Done::Reached)), "{example}: {done:?}");
+        }
+        std::fs::remove_dir_all(&folder).unwrap();
+        assert!(examples.len() >= 8, "{examples:?}");
     }
 
     #[test]

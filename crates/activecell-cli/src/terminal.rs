@@ -72,6 +72,11 @@ impl Terminal {
         Some((width.0.into(), height.0.into()))
     }
 
+    /// The width that the environment asks for where stdout is no terminal.
+    pub(crate) fn columns_wanted() -> Option<usize> {
+        std::env::var("COLUMNS").ok()?.parse().ok().filter(|&columns| columns > 0)
+    }
+
     /// Whether colours are wanted on stdout (<https://no-color.org>).
     pub(crate) fn colour() -> bool {
         let set = |name| std::env::var_os(name).is_some_and(|value| !value.is_empty());

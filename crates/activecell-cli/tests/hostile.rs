@@ -44,7 +44,9 @@ fn traps() -> tempfile::TempDir {
             "image: {image}\nresolution: {resolution}\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
         )
     };
-    let written: [(&str, Vec<u8>); 12] = [
+    let written: [(&str, Vec<u8>); 14] = [
+        ("tiny.toml", b"wheel_perimeter_m = 1e-310\n".to_vec()),
+        ("zero.yaml", yaml("/dev/zero", "0.05").into_bytes()),
         ("huge.map", b"type octile\nheight 4\nwidth 4000000000\nmap\n....\n".to_vec()),
         ("cut.map", b"type octile\nheight 4\nwidth 4\nmap\n....\n..".to_vec()),
         ("bomb.yaml", bomb.into_bytes()),
@@ -86,19 +88,28 @@ fn bad_input_gets_one_clear_line() {
         ("route ok.txt --from 0,0 --to -1,0".into(), 1, "cell (-1,0) is outside the map"),
         ("route ok.txt --from 99m,0m --to 0,0".into(), 1, "the point 99 m, 0 m is outside the map"),
         ("route ok.txt --from S --to Q".into(), 1, "the map names no cell `Q`; it names: S, F"),
-        (format!("route ok.txt {cells} --cell nan"), 1, "the cell size in metres is NaN"),
+        (format!("route ok.txt {cells} --cell nan"), 2, "give a number from 0.000001 to 1000000"),
         (format!("route ok.txt {cells} --cell 0.000001"), 1, "is too large"),
-        (format!("route ok.txt {cells} --cell 1 --radius -1"), 1, "the robot's radius in metres is -1"),
+        (format!("route ok.txt {cells} --cell 1 --radius -1"), 2, "give a number from 0 to 1000000"),
         (format!("route ok.txt {cells} --robot bad.toml"), 1, "bad.toml line 2, column 1: unknown key"),
-        (format!("route ok.txt {cells} --picture a.bmp"), 1, "must end in .svg, .png or .gif"),
+        (format!("route ok.txt {cells} --picture a.bmp"), 2, "must end in .svg, .png or .gif"),
         (format!("route ok.txt {cells} --save no/where.json"), 1, "its folder does not exist"),
-        (format!("route ok.txt {cells} --heading NE"), 1, "no such direction on this lattice"),
+        (format!("route ok.txt {cells} --heading NE"), 2, "no such direction on this lattice"),
         (format!("route ok.txt {cells} --rule learning --max-steps 1"), 1, "gave up after 1 steps"),
         ("route ok.txt --from 0;0 --to 1,1".into(), 2, ""),
         ("route ok.txt --from 0,0".into(), 2, ""),
         (format!("route ok.txt {cells} --rule fastest"), 2, ""),
         ("table success --pairs 0".into(), 2, ""),
-        ("convert ok.txt out.bmp".into(), 1, "out.bmp: the ending names no map format"),
+        ("convert ok.txt ok.txt".into(), 2, "the map is read from this file"),
+        ("convert ok.pgm ok.yaml".into(), 2, "the map is read from this file"),
+        (format!("route ok.txt {cells} --save a.svg --picture a.svg"), 2, "is to be written twice"),
+        (
+            format!("route ok.txt {cells} --robot tiny.toml"),
+            1,
+            "tiny.toml line 1, column 21: wheel_perimeter_m is",
+        ),
+        (format!("route zero.yaml {cells}"), 1, "is no regular file"),
+        ("convert ok.txt out.bmp".into(), 2, "out.bmp: the ending names no map format"),
         ("scen ok.txt".into(), 1, "ok.txt line 1"),
     ];
     for (arguments, code, message) in cases {

@@ -5,7 +5,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot read its maps should stop")]
 
-use activecell::{Cell, Lattice, Map, Outcome, Rng, Rule, Tiling, check_route};
+use activecell::{Cell, Lattice, Map, Outcome, Rng, Rule, Tiling};
 use activecell_formats::files::{ReadOptions, read_map};
 use activecell_formats::movingai::read_scen;
 use std::path::{Path, PathBuf};
@@ -89,7 +89,7 @@ fn every_scenario_row_is_routed_as_short_as_a_plain_search_says() {
                 match truth {
                     Some(steps) => {
                         assert_eq!((route.outcome(), route.steps()), (Outcome::Arrived, steps), "{place}");
-                        assert_eq!(check_route(&map, route.cells(), task.from, task.to), Ok(()), "{place}");
+                        assert_eq!(route.check(&map, task.from, task.to), Ok(()), "{place}");
                     }
                     None => assert_eq!(route.outcome(), Outcome::Unreachable, "{place}"),
                 }

@@ -1,6 +1,6 @@
 //! The disk: the only module that touches it.
 
-use crate::error::{Error, line_and_column};
+use crate::error::{Error, line_and_column, shown};
 use crate::movingai;
 use crate::raster;
 use crate::ros::{self, MapYaml};
@@ -8,6 +8,7 @@ use activecell::{Frame, Lattice, Map};
 use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The longest map or image that is read, in bytes: 1 GiB, a plain PGM of [`activecell::MAX_CELLS`] pixels.
 pub const MAX_MAP_BYTES: u64 = 1 << 30;
@@ -34,6 +35,27 @@ pub fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Error> {
     let file = fs::File::open(path).map_err(failed)?;
     file.take(limit_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
     if bytes.len() as u64 > limit_bytes { Err(too_large()) } else { Ok(bytes) }
+}
+
+/// The files that a map is read from: the file itself, and the image that a ROS YAML file names.
+pub fn sources(path: &Path) -> Vec<PathBuf> {
+    let mut sources = vec![path.to_owned()];
+    if MapFormat::of(path).is_ok_and(|format| format == MapFormat::Ros)
+        && let Ok(bytes) = read_bytes(path, ros::MAX_YAML_BYTES)
+        && let Ok(yaml) = MapYaml::read(&bytes)
+    {
+        sources.push(beside(path, &yaml.image));
+    }
+    sources
+}
+
+/// The files that [`write_map`] writes: the file itself, and the image beside a ROS YAML file.
+pub fn outputs(path: &Path) -> Vec<PathBuf> {
+    let mut outputs = vec![path.to_owned()];
+    if MapFormat::of(path).is_ok_and(|format| format == MapFormat::Ros) {
+        outputs.push(path.with_extension("pgm"));
+    }
+    outputs
 }
 
 /// Writes a file so that it is there as a whole or, after an error, as it was before.
@@ -81,6 +103,7 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         return Err(io::ErrorKind::PermissionDenied.into());
     }
     let mut file = new_file_in(folder)?;
+    let _unfinished = Unfinished::begin(file.path());
     file.write_all(bytes)?;
     if let Some(permissions) = permissions {
         file.as_file().set_permissions(permissions)?;
@@ -88,6 +111,38 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     // A full disk may show only now.
     file.as_file().sync_all()?;
     file.persist(&target).map(drop).map_err(|error| error.error)
+}
+
+/// The temporary files that are being written.
+static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+/// A temporary file on the list while it lives.
+struct Unfinished(PathBuf);
+
+impl Unfinished {
+    fn begin(path: &Path) -> Self {
+        unfinished().push(path.to_owned());
+        Self(path.to_owned())
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        unfinished().retain(|path| *path != self.0);
+    }
+}
+
+fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
+    // A list of paths is whole even if somebody panicked over it.
+    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes the temporary files of writes that are under way: for a program that is about to be ended.
+pub fn abandon_writes() {
+    for path in unfinished().drain(..) {
+        // It may have become the file itself by now.
+        let _ = fs::remove_file(path);
+    }
 }
 
 fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
@@ -195,6 +250,9 @@ fn read_map_as(path: &Path, format: MapFormat, options: &ReadOptions) -> Result<
 fn read_ros(path: &Path, reading: ros::Reading) -> Result<Map, Error> {
     let yaml = MapYaml::read(&read_bytes(path, ros::MAX_YAML_BYTES)?)?;
     let image_path = beside(path, &yaml.image);
+    if fs::metadata(&image_path).is_ok_and(|metadata| !metadata.is_file()) {
+        return Err(Error::file(format!("image {} is no regular file; name an image", shown(&image_path))));
+    }
     let image = match read_bytes(&image_path, MAX_MAP_BYTES) {
         Ok(bytes) => raster::read_image(&bytes).map_err(|error| error.in_file(&image_path))?,
         // Who named that file?

@@ -113,8 +113,10 @@ fn set(slot: &Slot, value: &DeValue<'_>, robot: &mut Robot) -> Result<(), &'stat
             *field(robot) = number.as_str().parse().map_err(|_| "a number")?;
         }
         (Slot::Number(field), DeValue::Integer(number)) => {
-            let whole = i64::from_str_radix(number.as_str(), number.radix()).map_err(|_| "a number")?;
-            *field(robot) = whole as f64;
+            *field(robot) = match number.radix() {
+                10 => number.as_str().parse().map_err(|_| "a number")?,
+                radix => i64::from_str_radix(number.as_str(), radix).map_err(|_| "a number")? as f64,
+            };
         }
         (Slot::Flag(field), DeValue::Boolean(flag)) => *field(robot) = *flag,
         (Slot::Drive, DeValue::String(name)) => {
@@ -183,7 +185,7 @@ mod tests {
     fn mistakes_are_told_by_place_and_nearest_key() {
         let error = |text: &str| read(text.as_bytes()).unwrap_err().to_string();
         let cases = [
-            ("track_m = -1", "line 1, column 11: track_m is -1; it must be above 0 and at most 1000000"),
+            ("track_m = -1", "line 1, column 11: track_m is -1; it must be between 0.000001 and 1000000"),
             ("\nradius_m = nan", "line 2, column 12: radius_m is NaN; it must be between 0 and 1000000"),
             ("track_m = \"0.2\"", "line 1, column 11: track_m must be a number"),
             ("drive = \"tank\"", "line 1, column 9: drive must be \"steered\" or \"differential\""),

@@ -12,7 +12,7 @@ use crate::raster;
 use crate::route::{self, Route};
 use crate::scene::Shape;
 use crate::{Error, RoutePicture};
-use activecell::{Cell, Map};
+use activecell::{Cell, Field, Map};
 use std::borrow::Cow;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
@@ -59,16 +59,15 @@ fn show_wave(
     film: &mut Film,
     stage: &mut Stage,
     figure: &Figure<'_>,
-    wave: &[Option<u32>],
+    wave: &Field,
     marks: &[Shape],
 ) -> Result<(), Error> {
-    let Some(&longest) = wave.iter().flatten().max() else { return Ok(()) };
-    let steps_at = |cell: Cell| *wave.get(figure.map.index(cell)?)?;
+    let Some(longest) = crate::farthest(figure.map, wave) else { return Ok(()) };
     let (columns, rows) = pixels(&figure.layout, &stage.below);
     let mut levels = Vec::new();
     for y in rows {
         for x in columns.clone() {
-            if let Some(steps) = steps_at(figure.layout.cell_at(x, y)) {
+            if let Some(steps) = wave.steps(figure.layout.cell_at(x, y)) {
                 levels.push((steps, y * stage.below.width() + x));
             }
         }

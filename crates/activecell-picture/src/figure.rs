@@ -9,7 +9,7 @@ use crate::outline;
 use crate::route;
 use crate::sample::Sampled;
 use crate::scene::{Line, Point, Scene, Shape, Text, printable};
-use activecell::{Cell, Lattice, Map};
+use activecell::{Cell, Field, Lattice, Map};
 use std::fmt::Write;
 
 /// Cells of at least so many pixels are told apart by thin lines.
@@ -177,14 +177,11 @@ impl<'a> Figure<'a> {
     }
 
     /// The cells that the wave reached, in bands from near to far.
-    fn wave(&self, wave: &[Option<u32>]) -> Vec<Shape> {
-        let Some(longest) = wave.iter().flatten().max() else { return Vec::new() };
+    fn wave(&self, wave: &Field) -> Vec<Shape> {
+        let Some(longest) = crate::farthest(self.map, wave) else { return Vec::new() };
         let bands = u32::from(BANDS).min(longest.saturating_add(1)) as u8;
-        let band = |steps: u32| 1 + (u64::from(steps) * u64::from(bands) / (u64::from(*longest) + 1)) as u8;
-        let levels = self.levels(|cell| {
-            let steps = *wave.get(self.map.index(cell)?)?;
-            steps.map(band)
-        });
+        let band = |steps: u32| 1 + (u64::from(steps) * u64::from(bands) / (u64::from(longest) + 1)) as u8;
+        let levels = self.levels(|cell| wave.steps(cell).map(band));
         let width = self.sampled.width() as usize;
         let level = |cell: Cell| levels[cell.y as usize * width + cell.x as usize];
         // Each band lies on the one before, which reaches below it: no seam between them.

@@ -45,7 +45,7 @@ mod scene;
 mod svg;
 mod terminal;
 
-use activecell::{Cell, Map};
+use activecell::{Cell, Field, Map};
 use figure::Figure;
 
 /// A route on a map, to be drawn.
@@ -69,9 +69,8 @@ pub struct RoutePicture<'a> {
     pub turns: &'a [Cell],
     /// The cells in which the robot circles for ever, in order; empty if it does not.
     pub cycle: &'a [Cell],
-    /// The wave, if the route was found with one: for each cell, in the order of [`Map::index`], its steps from
-    /// the target; `None` where the wave did not come.
-    pub wave: Option<&'a [Option<u32>]>,
+    /// The wave from the target over this map, if the route was found with one.
+    pub wave: Option<&'a Field>,
 }
 
 /// Why a picture could not be made.
@@ -153,6 +152,11 @@ pub fn map_svg(map: &Map, title: &str) -> String {
 /// ```
 pub fn terminal(picture: &RoutePicture<'_>, columns: usize, rows: usize, colour: bool) -> String {
     terminal::draw(picture, columns, rows, colour)
+}
+
+/// How far the wave came on the map; `None` if it reached no cell of it.
+fn farthest(map: &Map, wave: &Field) -> Option<u32> {
+    map.free().filter_map(|cell| wave.steps(cell)).max()
 }
 
 fn still(picture: &RoutePicture<'_>) -> scene::Scene {

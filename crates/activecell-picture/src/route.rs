@@ -49,7 +49,8 @@ impl<'a> Route<'a> {
         };
         add(self.picture.map.contains(self.picture.from), Key::Start);
         add(self.picture.map.contains(self.picture.to), Key::Target);
-        add(self.cells.len() > 1, Key::Route);
+        // A robot that only circles has no other line than its circle.
+        add(self.cells.len() > self.cycle.len() + 1, Key::Route);
         add(self.turn_radius > 0.0 && !self.picture.turns.is_empty(), Key::Turn);
         add(!self.cycle.is_empty(), Key::Trapped);
         add(wave, Key::Wave);

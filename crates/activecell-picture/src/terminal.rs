@@ -75,7 +75,7 @@ fn marks(picture: &RoutePicture<'_>, block: i32) -> BTreeMap<Cell, Mark> {
 fn cells(picture: &RoutePicture<'_>, colour: bool) -> String {
     let map = picture.map;
     let marks = marks(picture, 1);
-    let longest = picture.wave.and_then(|wave| wave.iter().flatten().max().copied());
+    let longest = picture.wave.and_then(|wave| crate::farthest(map, wave));
     let mut pen = Pen::new(colour);
     for y in 0..map.height() as i32 {
         if map.lattice() == Lattice::Hex && y & 1 == 1 {
@@ -88,7 +88,7 @@ fn cells(picture: &RoutePicture<'_>, colour: bool) -> String {
                 pen.put(ink, Some(paper));
                 pen.out.extend([' ', letter]);
             } else if map.is_free(cell) {
-                let steps = picture.wave.zip(map.index(cell)).and_then(|(wave, i)| *wave.get(i)?);
+                let steps = picture.wave.and_then(|wave| wave.steps(cell));
                 let paper = match (steps, longest) {
                     (Some(steps), Some(longest)) => wave(f64::from(steps) / f64::from(longest.max(1))),
                     _ => FLOOR,

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
 
-use activecell::{Cell, Lattice, Map};
+use activecell::{Cell, Field, Lattice, Map};
 use activecell_picture::{RoutePicture, gif, map_svg, png, svg, terminal};
 use tiny_skia::Pixmap;
 
@@ -21,13 +21,11 @@ fn floor(lattice: Lattice) -> Map {
     Map::parse(lattice, FLOOR).unwrap()
 }
 
-/// A wave without regard for obstacles: any numbers will do.
-fn wave(map: &Map) -> Vec<Option<u32>> {
-    let cells = (0..map.height() as i32).flat_map(|y| (0..map.width() as i32).map(move |x| Cell::new(x, y)));
-    cells.map(|cell| map.is_free(cell).then(|| map.lattice().distance(cell, TO))).collect()
+fn wave(map: &Map) -> Field {
+    map.wave(TO).unwrap()
 }
 
-fn picture<'a>(map: &'a Map, cells: &'a [Cell], wave: Option<&'a [Option<u32>]>) -> RoutePicture<'a> {
+fn picture<'a>(map: &'a Map, cells: &'a [Cell], wave: Option<&'a Field>) -> RoutePicture<'a> {
     RoutePicture { map, floor: None, title: "floor", from: FROM, to: TO, cells, turns: &[], cycle: &[], wave }
 }
 
@@ -136,7 +134,7 @@ fn a_gif_moves() {
     for lattice in Lattice::ALL {
         let map = floor(lattice);
         let (cells, wave) = (route(), wave(&map));
-        for wave in [None, Some(wave.as_slice())] {
+        for wave in [None, Some(&wave)] {
             let drawn = picture(&map, &cells, wave);
             let data = gif(&drawn).unwrap();
             assert_eq!(data, gif(&drawn).unwrap());
@@ -205,14 +203,15 @@ fn strange_routes_and_maps() {
         let stay = RoutePicture { to: FROM, ..picture(&map, &[FROM], None) };
         all(&stay);
         all(&picture(&map, &[], None));
-        all(&picture(&map, &[], Some(&[None, Some(u32::MAX), Some(0)])));
+        let larger = Map::random(lattice, 90, 90, 0.0, 1).unwrap();
+        all(&picture(&map, &[], Some(&wave(&larger))));
         let outside = [Cell::new(-1, 0), Cell::new(i32::MAX, i32::MIN)];
         let lost = RoutePicture { from: outside[0], to: outside[1], turns: &outside, ..stay };
         all(&RoutePicture { cells: &outside, cycle: &outside, ..lost });
 
         let one = Map::parse(lattice, ".").unwrap();
         let origin = Cell::new(0, 0);
-        let (cells, wave) = ([origin], [Some(0)]);
+        let (cells, wave) = ([origin], one.wave(origin).unwrap());
         let drawn = RoutePicture { from: origin, to: origin, ..picture(&one, &cells, Some(&wave)) };
         assert!(all(&drawn).width() > 400);
         let wall = Map::parse(lattice, "#").unwrap();

@@ -54,7 +54,9 @@ impl fmt::Display for Cell {
 
 /// A direction: the number of a neighbour, clockwise from the top, from 0.
 ///
-/// The paper counts from 1: its `b1` (North) is [`Dir::N`] = `Dir(0)`, its `C1` (North-East) is `Dir(0)` too.
+/// The paper counts from 1: its `b1` (North) is [`Dir::N`] = `Dir(0)`, its `C1` (North-East) is `Dir(0)` too. A
+/// number of 4 and more on squares, of 6 and more on hexagons, names no direction; functions that are given one
+/// panic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Dir(pub u8);
 
@@ -176,17 +178,13 @@ impl Lattice {
     /// assert_eq!(Lattice::Hex.distance(Cell::new(0, 0), Cell::new(2, 3)), 4);
     /// ```
     pub const fn distance(self, a: Cell, b: Cell) -> u32 {
-        let dx = (b.x as i64 - a.x as i64).unsigned_abs();
-        let dy = (b.y as i64 - a.y as i64).unsigned_abs();
+        let ((ax, ay), (bx, by)) = (self.centre(a), self.centre(b));
+        let (across, down) = ((bx - ax).unsigned_abs(), (by - ay).unsigned_abs());
         match self {
-            Self::Square => (dx + dy) as u32,
-            Self::Hex => {
-                let ((ax, ay), (bx, by)) = (self.centre(a), self.centre(b));
-                // Every row crossed also moves half a cell sideways; the rest is walked along the row.
-                let half_cells = (bx - ax).unsigned_abs();
-                let rows = (by - ay).unsigned_abs() / 3;
-                (rows + half_cells.saturating_sub(rows) / 2) as u32
-            }
+            // Two units a step.
+            Self::Square => (across / 2 + down / 2) as u32,
+            // Every row crossed also moves half a cell sideways; the rest is walked along the row.
+            Self::Hex => (down / 3 + across.saturating_sub(down / 3) / 2) as u32,
         }
     }
 

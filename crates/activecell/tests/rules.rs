@@ -3,7 +3,7 @@
 mod common;
 
 use activecell::rule::{Decision, Levels, Mosaic, Sector, decide, neighbourhood};
-use activecell::{Cell, Drive, Lattice, Map, Outcome, Robot, Rule, check_program, check_route};
+use activecell::{Cell, Dir, Drive, Lattice, Map, Outcome, Robot, Rule, check_program, check_route};
 use common::{breadth_first, least_steps_and_turns, random_task};
 
 const DENSITIES: [f64; 6] = [0.05, 0.1, 0.2, 0.3, 0.4, 0.6];
@@ -28,7 +28,7 @@ fn cell_view_and_navigator_view_give_the_same_trace() {
             let Some(sector) = Sector::towards(map.lattice(), cell, to) else { break };
             let near = map.lattice().distance(cell, to) == 1;
             let decision = decide(map.lattice(), sector, near, neighbourhood(&map, cell));
-            assert_eq!(mosaic.step(), decision, "{map:?} at {cell} towards {to}");
+            assert_eq!(mosaic.step(), Some(decision), "{map:?} at {cell} towards {to}");
             if let Decision::Move(dir) = decision {
                 cell = map.lattice().neighbour(cell, dir);
             }
@@ -103,7 +103,7 @@ fn levels_never_exceed_the_distance() {
         let truth = breadth_first(&map, to);
         let mut levels = Levels::new(&map, to);
         let mut cell = from;
-        while let Some(Decision::Move(dir)) = levels.step(&map, cell) {
+        while let Some(dir) = levels.step(&map, cell) {
             cell = map.lattice().neighbour(cell, dir);
             for (&cell, &steps) in &truth {
                 assert!(levels.level(&map, cell) <= steps);
@@ -132,7 +132,27 @@ fn wave_routes_have_the_fewest_turns_among_the_shortest() {
         let route = map.route(Rule::Wave, from, to, LIMIT).unwrap();
         if route.outcome() == Outcome::Arrived {
             let found = (route.steps() as u32, route.turns().len() as u32);
-            assert_eq!(Some(found), least_steps_and_turns(&map, from, to), "{map:?} {from} {to}");
+            let all: Vec<Dir> = map.lattice().dirs().collect();
+            assert_eq!(Some(found), least_steps_and_turns(&map, from, to, &all), "{map:?} {from} {to}");
+        }
+    }
+}
+
+#[test]
+fn a_robot_that_faces_somewhere_gets_a_program_with_the_fewest_turns() {
+    for (i, (map, from, to)) in tasks(800, 10).enumerate() {
+        let lattice = map.lattice();
+        let facing = lattice.dirs().nth(i % usize::from(lattice.degree())).unwrap();
+        for can_reverse in [false, true] {
+            let robot = Robot { can_reverse, ..Robot::default() };
+            let back = can_reverse.then_some(lattice.opposite(facing));
+            let dirs: Vec<Dir> = std::iter::once(facing).chain(back).collect();
+            let route = map.wave(to).unwrap().route_facing(from, &dirs);
+            if route.outcome() == Outcome::Arrived && from != to {
+                let program = route.program(&robot, 1.0, Some(facing));
+                let found = (route.steps() as u32, program.turns() as u32);
+                assert_eq!(Some(found), least_steps_and_turns(&map, from, to, &dirs), "{map:?} {from} {to}");
+            }
         }
     }
 }

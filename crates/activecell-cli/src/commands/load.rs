@@ -30,11 +30,10 @@ pub(crate) fn map(args: &MapArgs, robot: Option<&Robot>, terminal: &Terminal) ->
     let (image, format) = files::read_map(&args.path, &options)?;
     let lattice = Lattice::from(args.lattice);
     let Some(cell_m) = args.cell else {
-        if let Some(robot) = robot.filter(|robot| 2.0 * robot.radius_m > image.frame().cell_m) {
+        let (width_m, cell_m) = (2.0 * robot.copied().unwrap_or_default().radius_m, image.frame().cell_m);
+        if width_m > cell_m {
             terminal.note(&format!(
-                "note: the robot is {} m wide, a cell only {} m; with --cell the floor is re-tiled for the robot",
-                2.0 * robot.radius_m,
-                image.frame().cell_m
+                "note: each pixel of {cell_m} m is a cell, and a robot of {width_m} m does not fit; --cell re-tiles the floor for it"
             ));
         }
         return Ok(Loaded { map: image.on(lattice), floor: None, format });

@@ -2,13 +2,13 @@
 
 use super::Done;
 use super::load::{self, Loaded};
-use crate::args::{DrawArg, RouteArgs, heading};
+use crate::args::{DrawArg, RouteArgs, WrongArgument, heading};
 use crate::terminal::Terminal;
-use activecell::{Cell, Field, Map, Outcome, Program, Robot, Route, Rule, check_program, check_route};
+use activecell::{Cell, Field, Map, Outcome, Program, Robot, Route, Rule, check_program};
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
 use activecell_picture::{RoutePicture, gif, png, svg, terminal as drawing};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// How many entries of M are printed for people.
@@ -28,23 +28,28 @@ struct Solved {
 }
 
 pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done> {
-    for path in &args.picture {
-        picture_kind(path)?;
-    }
+    let pictures = pictures(args)?;
     let solved = solve(args, terminal)?;
     if let Some(path) = &args.save {
         let text = run_file::write(&solved.map, &solved.robot, solved.from, solved.to, &solved.report)?;
         files::write_atomically(path, text.as_bytes())?;
     }
-    for path in &args.picture {
+    let (title, turns) = (title(args, &solved), solved.turns());
+    let picture = solved.picture(&title, &turns);
+    for (path, kind) in pictures {
         let _working = terminal.working(format!("drawing {}", path.display()));
-        draw(path, &solved, &title(args, &solved))?;
+        let bytes = match kind {
+            Kind::Svg => svg(&picture).into_bytes(),
+            Kind::Png => png(&picture)?,
+            Kind::Gif => gif(&picture)?,
+        };
+        files::write_atomically(path, &bytes)?;
         terminal.detail(&format!("wrote {}", path.display()));
     }
     if args.json {
         Terminal::result(&format!("{}\n", serde_json::to_string(&solved.report)?))?;
     } else {
-        Terminal::result(&(small_map(args, &solved) + &text(&solved)))?;
+        Terminal::result(&(small_map(args, &picture) + &text(&solved)))?;
     }
     Ok(if solved.route.outcome() == Outcome::Arrived { Done::Reached } else { Done::NotReached })
 }
@@ -59,11 +64,16 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
 
     let started = Instant::now();
     let rule = Rule::from(args.rule);
-    let field = (rule == Rule::Wave).then(|| map.wave_to(to, from)).transpose()?;
+    map.check_task(from, to)?;
+    let field = (rule == Rule::Wave).then(|| map.wave(to)).transpose()?;
     let flooded = started.elapsed();
-    let route = match &field {
-        Some(field) => field.route(from),
-        None => map.route(rule, from, to, args.max_steps)?,
+    let route = match (&field, facing) {
+        (Some(field), Some(ahead)) => {
+            let back = robot.can_reverse.then_some(map.lattice().opposite(ahead));
+            field.route_facing(from, &std::iter::once(ahead).chain(back).collect::<Vec<_>>())
+        }
+        (Some(field), None) => field.route(from),
+        (None, _) => map.route(rule, from, to, args.max_steps)?,
     };
     let all = started.elapsed();
     let field_seconds = if field.is_some() { flooded.as_secs_f64() } else { 0.0 };
@@ -71,8 +81,7 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
 
     let cell_m = map.frame().cell_m;
     let program = route.program(&robot, cell_m, facing);
-    let end = if route.outcome() == Outcome::Arrived { to } else { *route.cells().last().unwrap_or(&from) };
-    check_route(&map, route.cells(), from, end)?;
+    route.check(&map, from, to)?;
     check_program(&map, &robot, &program, route.cells())?;
     let report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
     Ok(Solved { map, floor, robot, from, to, field, route, program, report })
@@ -99,6 +108,9 @@ fn text(solved: &Solved) -> String {
             text += &format!("all neighbours of {} are obstacles\n", solved.from);
             return text;
         }
+    }
+    if program.waypoints.len() == 1 && route.steps() == 0 {
+        return text + "the robot is there already\n";
     }
     if let Some(heading) = report.heading {
         text += &format!("\nstart at {}, facing {heading}\n", solved.from);
@@ -145,24 +157,26 @@ fn title(args: &RouteArgs, solved: &Solved) -> String {
     )
 }
 
-/// Calls `with` with the picture of the solved task.
-fn with_picture<T>(solved: &Solved, title: &str, with: impl FnOnce(&RoutePicture<'_>) -> T) -> T {
-    let width = solved.map.width() as i32;
-    let cell = |index: usize| Cell::new(index as i32 % width, index as i32 / width);
-    let wave: Option<Vec<Option<u32>>> =
-        solved.field.as_ref().map(|field| (0..solved.map.cells()).map(|i| field.steps(cell(i))).collect());
-    let turns = solved.route.turns();
-    with(&RoutePicture {
-        map: &solved.map,
-        floor: solved.floor.as_ref(),
-        title,
-        from: solved.from,
-        to: solved.to,
-        cells: solved.route.cells(),
-        turns: &turns,
-        cycle: solved.route.cycle(),
-        wave: wave.as_deref(),
-    })
+impl Solved {
+    /// Where the robot turns: changing to reverse is no turn.
+    fn turns(&self) -> Vec<Cell> {
+        let waypoints = self.program.waypoints.iter();
+        waypoints.filter(|waypoint| waypoint.turn_deg != 0).map(|waypoint| waypoint.cell).collect()
+    }
+
+    fn picture<'a>(&'a self, title: &'a str, turns: &'a [Cell]) -> RoutePicture<'a> {
+        RoutePicture {
+            map: &self.map,
+            floor: self.floor.as_ref(),
+            title,
+            from: self.from,
+            to: self.to,
+            cells: self.route.cells(),
+            turns,
+            cycle: self.route.cycle(),
+            wave: self.field.as_ref(),
+        }
+    }
 }
 
 #[derive(Clone, Copy)]
@@ -172,33 +186,38 @@ enum Kind {
     Gif,
 }
 
-fn picture_kind(path: &Path) -> anyhow::Result<Kind> {
-    let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    match ending.as_str() {
-        "svg" => Ok(Kind::Svg),
-        "png" => Ok(Kind::Png),
-        "gif" => Ok(Kind::Gif),
-        _ => anyhow::bail!("--picture {}: the name must end in .svg, .png or .gif", path.display()),
+/// The pictures that are asked for, each with its kind.
+fn pictures(args: &RouteArgs) -> Result<Vec<(&Path, Kind)>, WrongArgument> {
+    let mut outputs: Vec<&Path> = args.picture.iter().chain(&args.save).map(PathBuf::as_path).collect();
+    outputs.sort_unstable();
+    if let Some(twice) = outputs.windows(2).find(|pair| pair[0] == pair[1]) {
+        return Err(WrongArgument(format!(
+            "{} is to be written twice; give each its own name",
+            twice[0].display()
+        )));
     }
-}
-
-fn draw(path: &Path, solved: &Solved, title: &str) -> anyhow::Result<()> {
-    let kind = picture_kind(path)?;
-    let bytes = with_picture(solved, title, |picture| match kind {
-        Kind::Svg => Ok(svg(picture).into_bytes()),
-        Kind::Png => png(picture),
-        Kind::Gif => gif(picture),
-    })?;
-    Ok(files::write_atomically(path, &bytes)?)
+    let kind = |path: &PathBuf| {
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        match ending.as_str() {
+            "svg" => Ok(Kind::Svg),
+            "png" => Ok(Kind::Png),
+            "gif" => Ok(Kind::Gif),
+            _ => Err(WrongArgument(format!(
+                "--picture {}: the name must end in .svg, .png or .gif",
+                path.display()
+            ))),
+        }
+    };
+    args.picture.iter().map(|path| Ok((path.as_path(), kind(path)?))).collect()
 }
 
 /// The map for the terminal, if one is wanted there.
-fn small_map(args: &RouteArgs, solved: &Solved) -> String {
-    let size = match (args.draw, Terminal::size()) {
+fn small_map(args: &RouteArgs, picture: &RoutePicture<'_>) -> String {
+    let (columns, rows) = match (args.draw, Terminal::size()) {
         (DrawArg::Never, _) | (DrawArg::Auto, None) => return String::new(),
         (_, Some((columns, rows))) => (columns, rows.saturating_sub(6).clamp(5, 40)),
-        (DrawArg::Always, None) => (100, 40),
+        (DrawArg::Always, None) => (Terminal::columns_wanted().unwrap_or(100), 40),
     };
-    let drawn = with_picture(solved, "", |picture| drawing(picture, size.0, size.1, Terminal::colour()));
+    let drawn = drawing(picture, columns, rows, Terminal::colour());
     format!("{}\n\n", drawn.trim_end_matches('\n'))
 }

@@ -3,7 +3,7 @@
 use super::Done;
 use crate::args::ScenArgs;
 use crate::terminal::Terminal;
-use activecell::{Lattice, Map, Outcome, Rule, check_route};
+use activecell::{Error, Lattice, Map, Outcome, Rule};
 use activecell_formats::files::{self, ReadOptions};
 use activecell_formats::movingai::{self, Task};
 use anyhow::Context;
@@ -41,16 +41,18 @@ pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> 
     let map_path = match (&args.map, tasks.first()) {
         (Some(path), _) => path.clone(),
         (None, Some(task)) => beside(&args.scen, &task.map)?,
-        (None, None) => anyhow::bail!("{}: the scenario has no task", args.scen.display()),
+        (None, None) => anyhow::bail!("{}: the scenario has no task; add one a line", args.scen.display()),
     };
     let (map, _) = files::read_map(&map_path, &ReadOptions::default())?;
     let map = map.on(Lattice::from(args.lattice));
     let rule = Rule::from(args.rule);
+    for task in &tasks {
+        fits(task, &map).with_context(|| format!("{} line {}", args.scen.display(), task.line))?;
+    }
     let bar = terminal.counting(tasks.len() as u64, "routing");
     let mut rows = Vec::with_capacity(tasks.len());
     for task in &tasks {
-        let row = solve(&map, rule, task, args.max_steps);
-        rows.push(row.with_context(|| format!("{} line {}", args.scen.display(), task.line))?);
+        rows.push(solve(&map, rule, task, args.max_steps)?);
         bar.step();
     }
     drop(bar);
@@ -63,29 +65,38 @@ pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> 
     Ok(if arrived == report.tasks { Done::Reached } else { Done::NotReached })
 }
 
-fn solve(map: &Map, rule: Rule, task: &Task, max_steps: usize) -> anyhow::Result<Row> {
+/// Whether the task was made for a map of this size; 0 × 0 says nothing.
+fn fits(task: &Task, map: &Map) -> anyhow::Result<()> {
+    let (asked, given) = ((task.width, task.height), (map.width(), map.height()));
     anyhow::ensure!(
-        (task.width, task.height) == (map.width(), map.height()),
+        asked == given || asked == (0, 0),
         "the task is for a map of {} x {} cells, this one has {} x {}; name the right map with --map",
-        task.width,
-        task.height,
-        map.width(),
-        map.height()
+        asked.0,
+        asked.1,
+        given.0,
+        given.1
     );
+    Ok(())
+}
+
+/// One row. A task that cannot be set, or takes too long, is a row too: the others are still worth their answer.
+fn solve(map: &Map, rule: Rule, task: &Task, max_steps: usize) -> anyhow::Result<Row> {
     let started = Instant::now();
-    let route = map.route(rule, task.from, task.to, max_steps)?;
+    let route = map.route(rule, task.from, task.to, max_steps);
     let us = started.elapsed().as_secs_f64() * 1e6;
-    let end = if route.outcome() == Outcome::Arrived { Some(&task.to) } else { route.cells().last() };
-    check_route(map, route.cells(), task.from, *end.unwrap_or(&task.from))?;
-    Ok(Row {
-        line: task.line,
-        from: [task.from.x, task.from.y],
-        to: [task.to.x, task.to.y],
-        outcome: route.outcome().name(),
-        steps: route.steps(),
-        expected: task.expected,
-        us,
-    })
+    let (outcome, steps) = match route {
+        Ok(route) => {
+            route.check(map, task.from, task.to)?;
+            (route.outcome().name(), route.steps())
+        }
+        Err(Error::StartOccupied { .. }) => ("start_occupied", 0),
+        Err(Error::TargetOccupied { .. }) => ("target_occupied", 0),
+        Err(Error::OutsideMap { .. }) => ("outside_map", 0),
+        Err(Error::StepLimit { steps }) => ("step_limit", steps),
+        Err(other) => return Err(other.into()),
+    };
+    let (from, to) = ([task.from.x, task.from.y], [task.to.x, task.to.y]);
+    Ok(Row { line: task.line, from, to, outcome, steps, expected: task.expected, us })
 }
 
 /// The map that a scenario names: its file name, looked for beside the scenario.

@@ -120,9 +120,7 @@ impl Map {
     /// The number of the cell in row order, from 0; `None` outside the map.
     #[inline]
     pub fn index(&self, cell: Cell) -> Option<usize> {
-        let (x, y) = (cell.x as u32, cell.y as u32);
-        // A negative coordinate becomes a huge unsigned one.
-        (x < self.width() && y < self.height()).then(|| y as usize * self.width() as usize + x as usize)
+        row_index(cell, self.width(), self.height())
     }
 
     /// How many cells the map has.
@@ -216,6 +214,14 @@ impl Map {
         let (dx, dy) = ((to.0 - from.0) as f64 * ux, (to.1 - from.1) as f64 * uy);
         (-dy).atan2(dx) + self.frame.yaw_rad
     }
+}
+
+/// The number of a cell in row order, from 0; `None` outside `width` × `height` cells.
+#[inline]
+pub(crate) fn row_index(cell: Cell, width: u32, height: u32) -> Option<usize> {
+    // A negative coordinate becomes a huge unsigned one.
+    let (x, y) = (cell.x as u32, cell.y as u32);
+    (x < width && y < height).then(|| y as usize * width as usize + x as usize)
 }
 
 /// Width and height in metres of the box around `width` × `height` cells.

@@ -94,7 +94,7 @@ struct Floor<'a> {
     cell_px: f64,
     radius_px: f64,
     tolerance: f64,
-    room: Vec<u16>,
+    room_px2: Vec<u32>,
 }
 
 impl<'a> Floor<'a> {
@@ -105,7 +105,7 @@ impl<'a> Floor<'a> {
             cell_px: tiling.cell_m / image.frame.cell_m,
             radius_px: tiling.radius_m / image.frame.cell_m,
             tolerance: tiling.tolerance,
-            room: room_px(image),
+            room_px2: room_px2(image),
         }
     }
 
@@ -114,7 +114,7 @@ impl<'a> Floor<'a> {
             for x in 0..obstacles.width() {
                 let centre = self.centre_px(Cell::new(x as i32, y as i32));
                 let free = self.sweep_is_clear(centre, centre)
-                    && (self.tolerance >= 1.0 || self.occupied_share(centre) <= self.tolerance);
+                    && (self.tolerance >= 1.0 || self.occupied_share(centre) <= self.tolerance + 1e-9);
                 obstacles.set(x, y, !free);
             }
         }
@@ -155,9 +155,11 @@ impl<'a> Floor<'a> {
         [x as f64 * ux * self.cell_px, y as f64 * uy * self.cell_px]
     }
 
-    /// Steps (king's moves) from the pixel under the point to the nearest occupied one; 0 outside the image.
-    fn room_at(&self, [x, y]: PointPx) -> u16 {
-        self.image.index(Cell::new(x.floor() as i32, y.floor() as i32)).map_or(0, |index| self.room[index])
+    /// How far the pixel under the point is from the nearest occupied one, squared; 0 outside the image.
+    fn room_at(&self, [x, y]: PointPx) -> u32 {
+        self.image
+            .index(Cell::new(x.floor() as i32, y.floor() as i32))
+            .map_or(0, |index| self.room_px2[index])
     }
 
     /// Whether the robot's disc, moved straight from `a` to `b`, stays on the image and overlaps nothing
@@ -170,14 +172,15 @@ impl<'a> Floor<'a> {
         if low_x < 0.0 || low_y < 0.0 || high_x > f64::from(width) || high_y > f64::from(height) {
             return false;
         }
-        // An occupied pixel m king's moves away is at least m − 1 pixels away, and at most m √2.
+        // From the centre of the pixel under a point to the point, and from an occupied pixel's centre to its
+        // nearest corner, it is at most half a pixel's diagonal each.
         let middle = [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1])];
         let half = (a[0] - b[0]).hypot(a[1] - b[1]) / 2.0;
-        let room = f64::from(self.room_at(middle));
-        if room - 1.0 >= reach + half {
+        let room = f64::from(self.room_at(middle)).sqrt();
+        if room - std::f64::consts::SQRT_2 >= self.radius_px.max(CONTACT_PX) + half {
             return true;
         }
-        if room * std::f64::consts::SQRT_2 < reach {
+        if room + std::f64::consts::SQRT_2 < reach {
             return false;
         }
         let last_row = (high_y.floor() as u32).min(height - 1);
@@ -193,72 +196,107 @@ impl<'a> Floor<'a> {
         })
     }
 
-    /// The share of the cell's pixels that are occupied.
+    /// The share of the cell's area that is occupied or outside the image.
     fn occupied_share(&self, centre: PointPx) -> f64 {
-        let (half_x, half_y) = match self.lattice {
-            Lattice::Square => (self.cell_px / 2.0, self.cell_px / 2.0),
-            Lattice::Hex => (self.cell_px / 2.0, self.cell_px / 3f64.sqrt()),
+        let (ux, uy) = self.lattice.unit_m();
+        let corners = self.lattice.corners().iter();
+        let cell: Vec<PointPx> = corners
+            .map(|&(x, y)| {
+                [centre[0] + x as f64 * ux * self.cell_px, centre[1] + y as f64 * uy * self.cell_px]
+            })
+            .collect();
+        let bounds = |axis: usize| {
+            let low = cell.iter().map(|corner| corner[axis]).fold(f64::INFINITY, f64::min);
+            let high = cell.iter().map(|corner| corner[axis]).fold(f64::NEG_INFINITY, f64::max);
+            (low.floor() as i32, high.ceil() as i32)
         };
-        let inside = |dx: f64, dy: f64| match self.lattice {
-            Lattice::Square => true,
-            Lattice::Hex => dy.abs() <= half_y - dx.abs() / 3f64.sqrt(),
-        };
-        let (mut all, mut occupied) = (0u32, 0u32);
-        // The pixels whose centres lie in the cell.
-        for y in (centre[1] - half_y - 0.5).ceil() as i32..=(centre[1] + half_y - 0.5).floor() as i32 {
-            for x in (centre[0] - half_x - 0.5).ceil() as i32..=(centre[0] + half_x - 0.5).floor() as i32 {
-                if inside(f64::from(x) + 0.5 - centre[0], f64::from(y) + 0.5 - centre[1]) {
-                    all += 1;
-                    occupied += u32::from(!self.image.is_free(Cell::new(x, y)));
+        let ((left, right), (top, bottom)) = (bounds(0), bounds(1));
+        let mut occupied = 0.0;
+        for y in top..bottom {
+            for x in left..right {
+                if !self.image.is_free(Cell::new(x, y)) {
+                    occupied += area(&inside_pixel(&cell, f64::from(x), f64::from(y)));
                 }
             }
         }
-        if all == 0 {
-            let under = Cell::new(centre[0].floor() as i32, centre[1].floor() as i32);
-            return if self.image.is_free(under) { 0.0 } else { 1.0 };
-        }
-        f64::from(occupied) / f64::from(all)
+        occupied / area(&cell)
     }
 }
 
-/// For each pixel the number of king's moves to the nearest occupied one (two passes over the image).
-fn room_px(image: &Map) -> Vec<u16> {
-    let (width, height) = (image.width() as usize, image.height() as usize);
-    let mut room = vec![u16::MAX; width * height];
-    let pass = |room: &mut [u16], x: usize, y: usize, before: [Option<usize>; 4]| {
-        let here = y * width + x;
-        let nearest = before.into_iter().flatten().map(|index| room[index]).min().unwrap_or(u16::MAX);
-        room[here] = room[here].min(nearest.saturating_add(1));
-    };
-    for y in 0..height {
-        for x in 0..width {
-            if image.obstacles.get(x as u32, y as u32) {
-                room[y * width + x] = 0;
-                continue;
+/// The part of a convex shape that lies in a pixel (Sutherland and Hodgman 1974: one side after the other).
+fn inside_pixel(shape: &[PointPx], left: f64, top: f64) -> Vec<PointPx> {
+    let mut shape = shape.to_vec();
+    for (axis, limit, sign) in [(0, left, 1.0), (0, left + 1.0, -1.0), (1, top, 1.0), (1, top + 1.0, -1.0)] {
+        let depth = |point: PointPx| sign * (point[axis] - limit);
+        let mut kept = Vec::with_capacity(shape.len() + 1);
+        for (i, &b) in shape.iter().enumerate() {
+            let a = shape[(i + shape.len() - 1) % shape.len()];
+            let (from, to) = (depth(a), depth(b));
+            if (from < 0.0) != (to < 0.0) {
+                let along = from / (from - to);
+                kept.push([a[0] + along * (b[0] - a[0]), a[1] + along * (b[1] - a[1])]);
             }
-            let above = (y > 0).then(|| (y - 1) * width);
-            let before = [
-                (x > 0).then(|| y * width + x - 1),
-                above.filter(|_| x > 0).map(|row| row + x - 1),
-                above.map(|row| row + x),
-                above.filter(|_| x + 1 < width).map(|row| row + x + 1),
-            ];
-            pass(&mut room, x, y, before);
+            if to >= 0.0 {
+                kept.push(b);
+            }
         }
+        shape = kept;
     }
-    for y in (0..height).rev() {
-        for x in (0..width).rev() {
-            let below = (y + 1 < height).then(|| (y + 1) * width);
-            let before = [
-                (x + 1 < width).then(|| y * width + x + 1),
-                below.filter(|_| x > 0).map(|row| row + x - 1),
-                below.map(|row| row + x),
-                below.filter(|_| x + 1 < width).map(|row| row + x + 1),
-            ];
-            pass(&mut room, x, y, before);
+    shape
+}
+
+fn area(shape: &[PointPx]) -> f64 {
+    let next = |i: usize| shape[(i + 1) % shape.len()];
+    let twice: f64 = shape.iter().enumerate().map(|(i, a)| a[0] * next(i)[1] - next(i)[0] * a[1]).sum();
+    twice.abs() / 2.0
+}
+
+/// More pixels than a robot is wide.
+const FAR: u32 = 1 << 15;
+
+/// For each pixel the distance from its centre to that of the nearest occupied one, squared and exact, at most
+/// [`FAR`]² along the columns (A. Meijster, J. Roerdink, W. Hesselink, *A General Algorithm for Computing Distance
+/// Transforms in Linear Time*, 2000): along the columns, then along each row as the lower envelope of parabolas.
+fn room_px2(image: &Map) -> Vec<u32> {
+    let (width, height) = (image.width() as usize, image.height() as usize);
+    let mut room = vec![FAR; width * height];
+    let mut learn = |y: usize, from: Option<usize>| {
+        for x in 0..width {
+            let near = from.map_or(FAR, |from| room[from * width + x] + 1);
+            let here = &mut room[y * width + x];
+            *here = if image.obstacles.get(x as u32, y as u32) { 0 } else { near.min(*here) };
         }
-    }
+    };
+    (0..height).for_each(|y| learn(y, y.checked_sub(1)));
+    (0..height).rev().for_each(|y| learn(y, Some(y + 1).filter(|&below| below < height)));
+    room.chunks_mut(width).for_each(envelope);
     room
+}
+
+/// From distances along the columns to squared distances, for one row.
+fn envelope(row: &mut [u32]) {
+    let up: Vec<i64> = row.iter().map(|&steps| i64::from(steps).pow(2)).collect();
+    let at = |x: i64, of: usize| (x - of as i64).pow(2) + up[of];
+    // Parabolas of the envelope, and the column from which each is the lowest.
+    let mut lowest: Vec<(usize, i64)> = Vec::new();
+    for here in 0..row.len() {
+        while lowest.last().is_some_and(|&(other, from)| at(from, other) > at(from, here)) {
+            lowest.pop();
+        }
+        let from = lowest.last().map_or(0, |&(other, _)| {
+            let (i, u) = (other as i64, here as i64);
+            1 + (u * u - i * i + up[here] - up[other]).div_euclid(2 * (u - i))
+        });
+        if from < row.len() as i64 {
+            lowest.push((here, from));
+        }
+    }
+    for (x, cell) in row.iter_mut().enumerate().rev() {
+        while lowest.len() > 1 && lowest[lowest.len() - 1].1 > x as i64 {
+            lowest.pop();
+        }
+        *cell = at(x as i64, lowest[lowest.len() - 1].0).min(i64::from(u32::MAX)) as u32;
+    }
 }
 
 /// The distance from the segment `a`–`b` to the pixel in column `x` of row `y`.
@@ -383,12 +421,40 @@ mod tests {
 
     #[test]
     fn tolerance_counts_what_lies_in_the_cell() {
-        // One of the sixteen pixels of the cell is occupied, in its corner.
+        // One of the sixteen pixels of the cell is occupied, in its corner; the robot itself does not touch it.
         let image = Map::parse(Lattice::Square, "#...\n....\n....\n....").unwrap();
         let tiling = |tolerance| Tiling { lattice: Lattice::Square, cell_m: 4.0, radius_m: 1.0, tolerance };
         assert_eq!(image.retile(&tiling(1.0)).unwrap().free_cells(), 1);
         assert_eq!(image.retile(&tiling(0.0625)).unwrap().free_cells(), 1);
         assert_eq!(image.retile(&tiling(0.06)).unwrap().free_cells(), 0);
+    }
+
+    #[test]
+    fn no_tolerance_means_that_nothing_reaches_into_a_cell() {
+        // The pixel (4,2) reaches into the cell from x 4.8 on by a fifth of its width only.
+        let image = Map::parse(Lattice::Square, "......\n......\n....#.\n......\n......\n......").unwrap();
+        let tiling = |tolerance| Tiling { lattice: Lattice::Square, cell_m: 1.6, radius_m: 0.1, tolerance };
+        let cell = Cell::new(3, 1);
+        assert!(image.retile(&tiling(1.0)).unwrap().is_free(cell));
+        assert!(!image.retile(&tiling(0.0)).unwrap().is_free(cell));
+    }
+
+    #[test]
+    fn room_is_the_distance_to_the_nearest_pixel() {
+        for seed in 0..200 {
+            let (width, height) = (1 + seed as u32 % 17, 1 + seed as u32 / 17);
+            let density = [0.0, 0.02, 0.2, 0.9][seed as usize % 4];
+            let image = Map::random(Lattice::Square, width, height, density, seed).unwrap();
+            let occupied: Vec<(u32, u32)> = (0..height)
+                .flat_map(|y| (0..width).map(move |x| (x, y)))
+                .filter(|&(x, y)| image.obstacles().get(x, y))
+                .collect();
+            for (i, &room) in room_px2(&image).iter().enumerate() {
+                let (x, y) = (i as u32 % width, i as u32 / width);
+                let nearest = occupied.iter().map(|o| o.0.abs_diff(x).pow(2) + o.1.abs_diff(y).pow(2)).min();
+                assert_eq!(room, nearest.unwrap_or(FAR * FAR), "{}", image.to_text());
+            }
+        }
     }
 
     #[test]

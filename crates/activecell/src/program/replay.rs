@@ -1,7 +1,7 @@
 //! Dead reckoning: a program driven wheel revolution by wheel revolution, and the check that it lands on every
 //! cell of its route. Knows nothing of how programs are made.
 
-use super::{Drive, Program, Robot};
+use super::{Drive, Program, Robot, Waypoint};
 use crate::lattice::Cell;
 use crate::map::{Map, PointM};
 use std::fmt;
@@ -26,10 +26,10 @@ pub fn replay(map: &Map, robot: &Robot, program: &Program) -> Vec<PointM> {
     let mut points = vec![[x, y]];
     for waypoint in &program.waypoints {
         let run_m = waypoint.revolutions * robot.wheel_perimeter_m;
-        let pieces = (run_m.abs() / map.frame().cell_m).round();
+        let pieces = pieces(map, robot, waypoint);
         let (from_x, from_y) = (x, y);
-        for piece in 1..=pieces as u64 {
-            let driven_m = run_m * piece as f64 / pieces;
+        for piece in 1..=pieces {
+            let driven_m = run_m * piece as f64 / pieces as f64;
             (x, y) = (from_x + driven_m * bearing_rad.cos(), from_y + driven_m * bearing_rad.sin());
             points.push([x, y]);
         }
@@ -43,6 +43,11 @@ pub fn replay(map: &Map, robot: &Robot, program: &Program) -> Vec<PointM> {
         };
     }
     points
+}
+
+/// How many cells' lengths a run is long; none if it is no number.
+fn pieces(map: &Map, robot: &Robot, waypoint: &Waypoint) -> u64 {
+    (waypoint.revolutions * robot.wheel_perimeter_m / map.frame().cell_m).abs().round() as u64
 }
 
 /// Where a program leaves its route.
@@ -60,7 +65,7 @@ pub enum ProgramFault {
     /// The program drives another number of cells' lengths than the route has steps.
     WrongLength {
         /// Steps driven.
-        driven: usize,
+        driven: u64,
         /// Steps of the route.
         steps: usize,
     },
@@ -91,13 +96,14 @@ pub fn check_program(
     program: &Program,
     cells: &[Cell],
 ) -> Result<(), ProgramFault> {
-    let points = replay(map, robot, program);
-    if points.len() != cells.len() {
-        return Err(ProgramFault::WrongLength {
-            driven: points.len() - 1,
-            steps: cells.len().saturating_sub(1),
-        });
+    // Counted before it is driven: a wrong program may be longer than the memory.
+    let runs = program.waypoints.iter().map(|waypoint| pieces(map, robot, waypoint));
+    let driven = runs.fold(0, u64::saturating_add);
+    let steps = cells.len().saturating_sub(1);
+    if driven != steps as u64 {
+        return Err(ProgramFault::WrongLength { driven, steps });
     }
+    let points = replay(map, robot, program);
     // Rounding grows with the way; a millionth of a cell each step is far above it and far below any harm.
     let tolerance_m = |step: usize| 1e-6 * map.frame().cell_m * (step + 1) as f64;
     for (step, (point, &cell)) in points.iter().zip(cells).enumerate() {

@@ -147,8 +147,8 @@ impl Robot {
             ("sensors.noise_m", sensors.noise_m),
         ];
         for (name, value) in positive {
-            if !(value > 0.0 && value <= 1e6) {
-                return Err(Error::BadValue { name, value, allowed: "above 0 and at most 1000000" });
+            if !(1e-6..=1e6).contains(&value) {
+                return Err(Error::BadValue { name, value, allowed: "between 0.000001 and 1000000" });
             }
         }
         for (name, value) in not_negative {

@@ -79,6 +79,16 @@ impl Route {
         self.cells.len().saturating_sub(1)
     }
 
+    /// Checks the route, knowing nothing of how it was found: it must lead from `from` through free cells, from
+    /// neighbour to neighbour, and end at `to` if the outcome says so.
+    ///
+    /// # Errors
+    /// The first [`RouteFault`].
+    pub fn check(&self, map: &Map, from: Cell, to: Cell) -> Result<(), RouteFault> {
+        let end = if self.outcome == Outcome::Arrived { to } else { *self.cells.last().unwrap_or(&to) };
+        check_route(map, &self.cells, from, end)
+    }
+
     /// The direction of each step.
     pub fn dirs(&self) -> impl Iterator<Item = Dir> + '_ {
         self.cells.windows(2).filter_map(|pair| self.lattice.dir_between(pair[0], pair[1]))
@@ -115,7 +125,7 @@ impl Map {
         match rule {
             Rule::Published => Ok(published(self, from, to)),
             Rule::Learning => learning(self, from, to, max_steps),
-            Rule::Wave => Ok(self.wave_to(to, from)?.route(from)),
+            Rule::Wave => Ok(self.wave(to)?.route(from)),
         }
     }
 }
@@ -125,9 +135,24 @@ impl Field {
     ///
     /// Where the wave did not come the outcome is [`Outcome::Unreachable`] and the route is the start alone.
     pub fn route(&self, from: Cell) -> Route {
+        let facing: Vec<Dir> = self.lattice().dirs().collect();
+        self.route_facing(from, &facing)
+    }
+
+    /// As [`Field::route`], for a robot that faces somewhere already: the first step is no turn if it leads in one
+    /// of the directions `facing` (where the robot faces, and straight back if it can reverse).
+    ///
+    /// ```
+    /// use activecell::{Cell, Dir, Lattice, Map};
+    /// let map = Map::parse(Lattice::Square, "...\n...\n...")?;
+    /// let route = map.wave(Cell::new(2, 0))?.route_facing(Cell::new(0, 2), &[Dir::N]);
+    /// assert_eq!(route.cells()[1], Cell::new(0, 1));
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn route_facing(&self, from: Cell, facing: &[Dir]) -> Route {
         let reached = self.steps(from).is_some();
         let outcome = if reached { Outcome::Arrived } else { Outcome::Unreachable };
-        let cells = if reached { straight::fewest_turns(self, from) } else { vec![from] };
+        let cells = if reached { straight::fewest_turns(self, from, facing) } else { vec![from] };
         Route { lattice: self.lattice(), outcome, cells, cycle: Vec::new() }
     }
 }
@@ -164,7 +189,7 @@ fn learning(map: &Map, from: Cell, to: Cell, max_steps: usize) -> Result<Route, 
         if cells.len() > max_steps {
             return Err(Error::StepLimit { steps: max_steps });
         }
-        let Some(Decision::Move(dir)) = levels.step(map, cell) else { break Outcome::Unreachable };
+        let Some(dir) = levels.step(map, cell) else { break Outcome::Unreachable };
         cell = map.lattice().neighbour(cell, dir);
         cells.push(cell);
     };

@@ -1,7 +1,7 @@
 //! The learning rule: each cell keeps a level that only rises, and the active cell moves to the lowest.
 
-use super::{Decision, Sector};
-use crate::lattice::Cell;
+use super::Sector;
+use crate::lattice::{Cell, Dir};
 use crate::map::Map;
 
 /// The levels of all cells, as one robot on its way to one target has learnt them.
@@ -16,13 +16,13 @@ use crate::map::Map;
 /// proves the same, but later.)
 ///
 /// ```
-/// use activecell::{Cell, Lattice, Map, rule::{Decision, Levels}};
+/// use activecell::{Cell, Lattice, Map, rule::Levels};
 /// let map = Map::parse(Lattice::Square, "S#F\n...")?;
 /// let (mut cell, target) = (Cell::new(0, 0), Cell::new(2, 0));
 /// let mut levels = Levels::new(&map, target);
 /// let mut steps = 0;
 /// while cell != target {
-///     let Some(Decision::Move(dir)) = levels.step(&map, cell) else { unreachable!() };
+///     let Some(dir) = levels.step(&map, cell) else { unreachable!() };
 ///     cell = map.lattice().neighbour(cell, dir);
 ///     steps += 1;
 /// }
@@ -60,7 +60,7 @@ impl Levels {
 
     /// One step from the active cell: raises its level and says where to move; `None` once it is known that the
     /// target cannot be reached (and at the target itself). `cell` must be a free cell of the map for which the levels were made.
-    pub fn step(&mut self, map: &Map, cell: Cell) -> Option<Decision> {
+    pub fn step(&mut self, map: &Map, cell: Cell) -> Option<Dir> {
         let lattice = map.lattice();
         self.visit(map, cell);
         if self.frontier == 0 {
@@ -71,11 +71,11 @@ impl Levels {
         let free = neighbours.filter(|&(_, next)| map.is_free(next));
         // Of equal levels the first in the order.
         let lowest = free.map(|(dir, next)| (self.level(map, next), dir)).min_by_key(|&(level, _)| level);
-        let Some((level, dir)) = lowest else { return Some(Decision::Enclosed) };
+        let (level, dir) = lowest?;
         let index = map.index(cell)?;
         let raised = (level + 1).saturating_sub(lattice.distance(cell, self.target));
         self.learnt[index] = self.learnt[index].max(raised);
-        Some(Decision::Move(dir))
+        Some(dir)
     }
 
     fn visit(&mut self, map: &Map, cell: Cell) {

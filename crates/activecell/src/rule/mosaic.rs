@@ -78,8 +78,9 @@ impl Mosaic {
         Cell::new(index as i32 % self.width, index as i32 / self.width)
     }
 
-    /// One time step of every cell; says what the active cell did. At the target it stays.
-    pub fn step(&mut self) -> Decision {
+    /// One time step of every cell; says what the active cell did, `None` once it is at the target.
+    pub fn step(&mut self) -> Option<Decision> {
+        let arrived = self.active() == self.target;
         self.every_cell(Self::direction);
         self.every_cell(Self::permission);
         self.every_cell(Self::activation);
@@ -87,7 +88,7 @@ impl Mosaic {
             self.cells.iter().find(|cell| cell.active).map_or([Side::default(); 6], |cell| cell.sides);
         self.every_cell(Self::transition);
         let raised = self.lattice.dirs().find(|dir| sides[dir.index()].activate);
-        raised.map_or(Decision::Enclosed, Decision::Move)
+        (!arrived).then(|| raised.map_or(Decision::Enclosed, Decision::Move))
     }
 
     /// All cells compute at once from what was shown before, then all show the result.

@@ -6,7 +6,7 @@ mod sweep;
 
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
-use crate::map::Map;
+use crate::map::{Map, row_index};
 
 /// For every cell, the time step at which the wave from the target reached it: its distance.
 ///
@@ -68,17 +68,8 @@ impl Map {
             self.check_target(target)?;
         }
         let tiles = if self.clutter() < CLUTTER { sweep::flood(self, targets) } else { None };
-        let steps = tiles.map_or_else(|| Steps::Rows(queue::flood(self, targets, None)), Steps::Tiles);
+        let steps = tiles.map_or_else(|| Steps::Rows(queue::flood(self, targets)), Steps::Tiles);
         Ok(Field::new(self, targets, steps))
-    }
-
-    /// Floods the map from `target` until the wave reaches `start` or stops; cells farther away are unknown.
-    ///
-    /// # Errors
-    /// [`Error::OutsideMap`], [`Error::StartOccupied`] or [`Error::TargetOccupied`].
-    pub fn wave_to(&self, target: Cell, start: Cell) -> Result<Field, Error> {
-        self.check_task(start, target)?;
-        Ok(Field::new(self, &[target], Steps::Rows(queue::flood(self, &[target], Some(start)))))
     }
 
     /// How many runs of free cells, along rows and columns, the map has for each free cell.
@@ -164,8 +155,7 @@ impl Field {
     /// The number of the cell in row order, from 0; `None` outside the map.
     #[inline]
     pub(crate) fn index(&self, cell: Cell) -> Option<usize> {
-        let (x, y) = (cell.x as u32, cell.y as u32);
-        (x < self.width && y < self.height).then(|| y as usize * self.width as usize + x as usize)
+        row_index(cell, self.width, self.height)
     }
 
     /// How many cells the map has.
@@ -190,7 +180,7 @@ mod tests {
 
     /// All methods on one map, whatever the choice would be.
     fn compare(map: &Map, targets: &[Cell]) {
-        let rows = queue::flood(map, targets, None);
+        let rows = queue::flood(map, targets);
         let Some(tiles) = sweep::flood(map, targets) else { return };
         for y in 0..map.height() {
             for x in 0..map.width() {

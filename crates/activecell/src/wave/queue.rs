@@ -24,8 +24,8 @@ impl Rows {
     }
 }
 
-/// Floods the map from all `targets`, or until the wave reaches `until`.
-pub(super) fn flood(map: &Map, targets: &[Cell], until: Option<Cell>) -> Rows {
+/// Floods the map from all `targets`.
+pub(super) fn flood(map: &Map, targets: &[Cell]) -> Rows {
     let stride = map.width() as usize + 2;
     let mut steps = vec![WALL; stride * (map.height() as usize + 2)];
     let index = |cell: Cell| (cell.y as usize + 1) * stride + cell.x as usize + 1;
@@ -45,11 +45,10 @@ pub(super) fn flood(map: &Map, targets: &[Cell], until: Option<Cell>) -> Rows {
             queue.end += 1;
         }
     }
-    let until = until.map(index);
     let row = stride as isize;
     match map.lattice() {
-        Lattice::Square => spread(&mut steps, &mut queue, until, |_| [-row, row, -1, 1]),
-        Lattice::Hex => spread(&mut steps, &mut queue, until, |cell| {
+        Lattice::Square => spread(&mut steps, &mut queue, |_| [-row, row, -1, 1]),
+        Lattice::Hex => spread(&mut steps, &mut queue, |cell| {
             // The frame adds a row: odd rows of the map are even here, and their slanted neighbours lie right.
             let right = isize::from((cell / stride).is_multiple_of(2));
             [-1, 1, right - 1 - row, right - row, right - 1 + row, right + row]
@@ -64,19 +63,11 @@ struct Queue {
     end: usize,
 }
 
-fn spread<const N: usize>(
-    steps: &mut [u32],
-    queue: &mut Queue,
-    until: Option<usize>,
-    neighbours: impl Fn(usize) -> [isize; N],
-) {
+fn spread<const N: usize>(steps: &mut [u32], queue: &mut Queue, neighbours: impl Fn(usize) -> [isize; N]) {
     let mut begin = 0;
     while begin < queue.end {
         let cell = queue.cells[begin] as usize;
         begin += 1;
-        if until == Some(cell) {
-            return;
-        }
         let next = steps[cell] + 1;
         for offset in neighbours(cell) {
             let other = cell.wrapping_add_signed(offset);

@@ -20,16 +20,17 @@ pub(crate) fn breadth_first(map: &Map, from: Cell) -> BTreeMap<Cell, u32> {
 }
 
 /// The least (steps, turns) from `from` to `to`, by relaxing every (cell, direction) until nothing changes.
-pub(crate) fn least_steps_and_turns(map: &Map, from: Cell, to: Cell) -> Option<(u32, u32)> {
+///
+/// The first step is no turn in the directions `facing`.
+pub(crate) fn least_steps_and_turns(map: &Map, from: Cell, to: Cell, facing: &[Dir]) -> Option<(u32, u32)> {
     let lattice = map.lattice();
     let mut best: BTreeMap<(Cell, Dir), (u32, u32)> =
-        lattice.dirs().map(|dir| ((from, dir), (0, 0))).collect();
+        facing.iter().map(|&dir| ((from, dir), (0, 0))).collect();
     let mut queue: VecDeque<(Cell, Dir)> = best.keys().copied().collect();
     while let Some((cell, facing)) = queue.pop_front() {
         let (steps, turns) = best[&(cell, facing)];
         for dir in lattice.dirs() {
             let next = lattice.neighbour(cell, dir);
-            // The first step of all is never a turn: the start is entered in every direction at once.
             let cost = (steps + 1, turns + u32::from(dir != facing));
             if map.is_free(next) && best.get(&(next, dir)).is_none_or(|&old| cost < old) {
                 best.insert((next, dir), cost);
