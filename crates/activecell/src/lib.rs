@@ -45,4 +45,4 @@ pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route};
 pub use rule::Rule;
-pub use wave::Field;
+pub use wave::{CompactField, Field};

@@ -1,6 +1,12 @@
 //! The wave: the flood automaton. From the target on, a free cell that has a reached neighbour is reached at the
 //! next time step.
 
+mod compact;
+mod reach;
+mod tiles;
+
+pub use compact::CompactField;
+
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::Map;
