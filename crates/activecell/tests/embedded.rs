@@ -36,7 +36,7 @@ fn every_move_is_one_step_nearer() {
             for from in cells(&map) {
                 match table.next(from, to) {
                     Some(dir) => {
-                        assert!(field.nearer(from).any(|nearer| nearer == dir), "{from} {to} {map:?}")
+                        assert!(field.nearer(from).any(|nearer| nearer == dir), "{from} {to} {map:?}");
                     }
                     None => assert!(field.steps(from).is_none_or(|steps| steps == 0), "{from} {to} {map:?}"),
                 }
