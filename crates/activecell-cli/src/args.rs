@@ -186,7 +186,7 @@ pub(crate) struct ConvertArgs {
 #[command(after_help = "\
 Examples:
   activecell embed maps/office.yaml --cell 0.5 -o office.acm
-  activecell embed maps/office.yaml --cell 0.5 -o docks.acm --to 3,3 --to 30,5
+  activecell embed maps/office.yaml --cell 0.5 --radius 0.2 -o docks.acm --to 1.2m,1.5m --to 19m,11m
   activecell info office.acm")]
 pub(crate) struct EmbedArgs {
     #[command(flatten)]
