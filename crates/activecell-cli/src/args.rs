@@ -35,6 +35,7 @@ pub(crate) enum Command {
     Scen(ScenArgs),
     Info(InfoArgs),
     Convert(ConvertArgs),
+    Embed(EmbedArgs),
     Table(TableArgs),
     /// Print a completion script for a shell
     ///
@@ -148,7 +149,7 @@ pub(crate) struct ScenArgs {
     pub(crate) json: bool,
 }
 
-/// Describe a map: size, frame, free cells, separate regions
+/// Describe a map: size, frame, free cells, separate regions; or an embedded map (.acm)
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example:
@@ -174,6 +175,36 @@ pub(crate) struct ConvertArgs {
     pub(crate) map: MapArgs,
     /// The file to write
     pub(crate) out: PathBuf,
+}
+
+/// Make an embedded map, in which the next move is looked up instead of searched
+///
+/// With --to it holds a plane of directions for each of these targets; without, a compressed table of first moves
+/// from every free cell to every other, whose build time grows with the square of their number.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  activecell embed maps/office.yaml --cell 0.5 -o office.acm
+  activecell embed maps/office.yaml --cell 0.5 --radius 0.2 -o docks.acm --to 1.2m,1.5m --to 19m,11m
+  activecell info office.acm")]
+pub(crate) struct EmbedArgs {
+    #[command(flatten)]
+    pub(crate) map: MapArgs,
+    /// The file to write
+    #[arg(short, long, value_name = "FILE.acm")]
+    pub(crate) output: PathBuf,
+    /// A target; can be given more than once
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub(crate) to: Vec<Place>,
+    /// Refuse a table of more free cells than this
+    #[arg(long, value_name = "CELLS", default_value_t = 200_000)]
+    pub(crate) limit: usize,
+    /// Threads that build the table; the file is the same [default: one for each processor]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    pub(crate) threads: Option<u16>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 /// Print the rules as tables, or how often they arrive

@@ -73,6 +73,13 @@ pub enum Error {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// Bytes that are no embedded map.
+    BadEmbedded {
+        /// The byte, counted from 0.
+        offset: u64,
+        /// What is wrong there.
+        reason: &'static str,
+    },
 }
 
 impl fmt::Display for Error {
@@ -97,6 +104,9 @@ impl fmt::Display for Error {
             Self::NotSquare => write!(f, "only a map of squares can be re-tiled; read it as squares first"),
             Self::StepLimit { steps } => {
                 write!(f, "gave up after {steps} steps; raise the limit, or use the rule `wave`")
+            }
+            Self::BadEmbedded { offset, reason } => {
+                write!(f, "embedded map, byte {offset}: {reason}; make the file anew")
             }
             Self::BadValue { name, value, allowed } => write!(f, "{name} is {value}; it must be {allowed}"),
         }

@@ -29,6 +29,7 @@
 //!
 //! The core does no I/O, has no dependencies, and gives the same result on every run.
 
+mod embedded;
 mod error;
 mod lattice;
 mod map;
@@ -38,6 +39,7 @@ mod route;
 pub mod rule;
 mod wave;
 
+pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{BitPlane, Frame, MAX_CELLS, Map, PointM, Tiling};
@@ -45,4 +47,4 @@ pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route};
 pub use rule::Rule;
-pub use wave::Field;
+pub use wave::{CompactField, Field};

@@ -1,5 +1,6 @@
 //! `activecell info`: what a map is.
 
+use super::embed;
 use super::load::{self, Loaded};
 use crate::args::InfoArgs;
 use crate::terminal::Terminal;
@@ -24,6 +25,9 @@ struct Report {
 }
 
 pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
+    if embed::is_embedded(&args.map.path) {
+        return embed::describe(&args.map.path, args.json);
+    }
     let Loaded { map, format, .. } = load::map(&args.map, None, terminal)?;
     let regions = map.regions();
     let frame = map.frame();

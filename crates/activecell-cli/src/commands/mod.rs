@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 mod convert;
+mod embed;
 mod info;
 mod load;
 mod route;
@@ -28,6 +29,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
         Command::Scen(args) => return scen::run(&args, terminal),
         Command::Info(args) => info::run(&args, terminal)?,
         Command::Convert(args) => convert::run(&args, terminal)?,
+        Command::Embed(args) => embed::run(&args, terminal)?,
         Command::Table(args) => match args.table {
             TableKind::Rule { lattice, format } => Terminal::result(&table::rule(lattice.into(), format)?)?,
             TableKind::Success { size, pairs, seed, format } => {

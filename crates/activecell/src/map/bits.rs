@@ -81,6 +81,11 @@ impl BitPlane {
         &self.words[y as usize * self.words_per_row..][..self.words_per_row]
     }
 
+    /// The words of row `y`, to be filled; the bits behind the last column must stay 0.
+    pub(crate) fn row_mut(&mut self, y: u32) -> &mut [u64] {
+        &mut self.words[y as usize * self.words_per_row..][..self.words_per_row]
+    }
+
     /// How many bits are 1.
     pub fn count_ones(&self) -> u64 {
         self.words.iter().map(|word| u64::from(word.count_ones())).sum()

@@ -1,8 +1,13 @@
 //! The wave: the flood automaton. From the target on, a free cell that has a reached neighbour is reached at the
 //! next time step.
 
+mod compact;
 mod queue;
+mod reach;
 mod sweep;
+mod tiles;
+
+pub use compact::CompactField;
 
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};

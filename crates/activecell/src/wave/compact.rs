@@ -1,0 +1,231 @@
+//! Compact fields: of each cell's distance only the one or two bits that tell which neighbours are nearer.
+
+use super::tiles::{Plane, Tiles};
+use crate::error::Error;
+use crate::lattice::{Cell, Dir, Lattice};
+use crate::map::Map;
+
+/// Which neighbours lie one step nearer to the nearest of some targets, in two bits a cell or less.
+///
+/// Steps of touching cells differ by at most one, so the step modulo 3 tells nearer from farther: two bits, whose
+/// fourth value stands for cells that the wave did not reach. On squares the parity of the step follows from the
+/// cell's place, if all targets have the same parity; then one more bit, the step's second, tells it modulo 4, and
+/// a second plane says which cells were reached. Where these are all free cells, the map's own plane is shared.
+///
+/// Source: S. B. Akers, *A Modification of Lee's Path Connection Algorithm*, IEEE Trans. Electronic Computers, 1967.
+///
+/// ```
+/// use activecell::{Cell, Dir, Lattice, Map};
+/// let map = Map::parse(Lattice::Square, "S#.\n..F\n##.")?;
+/// let field = map.compact_wave(&[Cell::new(2, 1)])?;
+/// assert_eq!(field.next(Cell::new(0, 0)), Some(Dir::S));
+/// assert!(!field.is_reached(Cell::new(1, 0))); // an obstacle
+/// assert_eq!(field.bytes(), 8); // the reached cells are the map's free cells
+/// # Ok::<(), activecell::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct CompactField {
+    lattice: Lattice,
+    width: u32,
+    height: u32,
+    labels: Labels,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Labels {
+    /// The steps modulo 4, on squares.
+    Half {
+        /// The parity of the targets' x + y.
+        parity: u32,
+        reached: Reached,
+        /// Bit 1 of the step.
+        second: Dense,
+    },
+    /// The steps modulo 3; both bits are 1 where the wave did not come.
+    Thirds { low: Dense, high: Dense },
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Reached {
+    /// All free cells of this map, whose obstacles are shared.
+    Free(Map),
+    Only(Dense),
+}
+
+impl Map {
+    /// Floods the map from all `targets` at once, and keeps of each cell only which neighbours are nearer to the
+    /// nearest target. Ten times smaller than [`Map::wave`], and faster.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`] without a target; [`Error::OutsideMap`] or [`Error::TargetOccupied`].
+    ///
+    /// ```
+    /// use activecell::{Cell, Dir, Lattice, Map};
+    /// let map = Map::parse(Lattice::Hex, "A....B")?;
+    /// let field = map.compact_wave(&[Cell::new(0, 0), Cell::new(5, 0)])?;
+    /// assert_eq!(field.next(Cell::new(2, 0)), map.lattice().dir_named("W"));
+    /// assert_eq!(field.next(Cell::new(3, 0)), map.lattice().dir_named("E"));
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn compact_wave(&self, targets: &[Cell]) -> Result<CompactField, Error> {
+        check_targets(self, targets)?;
+        let parity = |cell: Cell| (cell.x ^ cell.y) as u32 & 1;
+        let first = parity(targets[0]);
+        let half = self.lattice() == Lattice::Square && targets.iter().all(|&cell| parity(cell) == first);
+        let mut tiles = Tiles::new(self);
+        let labels = if half {
+            tiles.flood(targets, |step| (step >> 1 & 1) as u8);
+            Labels::Half {
+                parity: first,
+                reached: reached(self, &tiles),
+                second: label(self, &tiles, Plane::Low),
+            }
+        } else {
+            tiles.flood(targets, |step| (step % 3) as u8);
+            let (mut low, mut high) = (label(self, &tiles, Plane::Low), label(self, &tiles, Plane::High));
+            let mut never = Dense::new(self);
+            tiles.rows(Plane::Open, |y, open| never.or_row(y, open));
+            for y in 0..self.height() {
+                never.or_row(y as usize, self.obstacles().row(y));
+            }
+            for ((low, high), never) in low.words.iter_mut().zip(&mut high.words).zip(never.words) {
+                *low |= never;
+                *high |= never;
+            }
+            Labels::Thirds { low, high }
+        };
+        Ok(CompactField { lattice: self.lattice(), width: self.width(), height: self.height(), labels })
+    }
+}
+
+/// Checks that there is a target, and that a robot can stand at each.
+pub(super) fn check_targets(map: &Map, targets: &[Cell]) -> Result<(), Error> {
+    if targets.is_empty() {
+        return Err(Error::BadValue { name: "the number of targets", value: 0.0, allowed: "at least 1" });
+    }
+    for &target in targets {
+        map.check_task(target, target).map_err(|error| match error {
+            Error::StartOccupied { cell, nearest } => Error::TargetOccupied { cell, nearest },
+            other => other,
+        })?;
+    }
+    Ok(())
+}
+
+fn label(map: &Map, tiles: &Tiles, plane: Plane) -> Dense {
+    let mut dense = Dense::new(map);
+    tiles.rows(plane, |y, row| dense.or_row(y, row));
+    dense
+}
+
+fn reached(map: &Map, tiles: &Tiles) -> Reached {
+    let mut all = true;
+    tiles.rows(Plane::Open, |_, row| all &= row.iter().all(|&open| open == 0));
+    if all {
+        return Reached::Free(map.clone());
+    }
+    let mut dense = Dense::new(map);
+    let width = map.width() as usize;
+    let mut row = vec![0; width.div_ceil(64)];
+    tiles.rows(Plane::Open, |y, open| {
+        for ((word, open), blocked) in row.iter_mut().zip(open).zip(map.obstacles().row(y as u32)) {
+            *word = !(open | blocked);
+        }
+        if let Some(last) = row.last_mut() {
+            *last &= u64::MAX >> ((64 - width % 64) % 64);
+        }
+        dense.or_row(y, &row);
+    });
+    Reached::Only(dense)
+}
+
+impl CompactField {
+    /// The lattice.
+    pub const fn lattice(&self) -> Lattice {
+        self.lattice
+    }
+
+    /// The step at which the wave came, modulo 4 or 3.
+    #[inline]
+    fn step(&self, cell: Cell) -> Option<u8> {
+        let (x, y) = (cell.x as u32, cell.y as u32);
+        if x >= self.width || y >= self.height {
+            return None;
+        }
+        let index = y as usize * self.width as usize + x as usize;
+        match &self.labels {
+            Labels::Half { parity, reached, second } => {
+                let reached = match reached {
+                    Reached::Free(map) => !map.obstacles().get(x, y),
+                    Reached::Only(dense) => dense.get(index) == 1,
+                };
+                reached.then(|| ((x ^ y ^ parity) & 1) as u8 | second.get(index) << 1)
+            }
+            Labels::Thirds { low, high } => {
+                let step = low.get(index) | high.get(index) << 1;
+                (step != 3).then_some(step)
+            }
+        }
+    }
+
+    /// Whether a way leads from the cell to a target; false outside the map.
+    pub fn is_reached(&self, cell: Cell) -> bool {
+        self.step(cell).is_some()
+    }
+
+    /// The directions that lead one step nearer to the nearest target; none at a target and where the wave did
+    /// not come.
+    pub fn nearer(&self, cell: Cell) -> impl Iterator<Item = Dir> + '_ {
+        let modulus = if matches!(self.labels, Labels::Half { .. }) { 4 } else { 3 };
+        let wanted = self.step(cell).map(|step| (step + modulus - 1) % modulus);
+        self.lattice
+            .dirs()
+            .filter(move |&dir| wanted.is_some() && self.step(self.lattice.neighbour(cell, dir)) == wanted)
+    }
+
+    /// The first of [`nearer`](Self::nearer), clockwise from the top.
+    pub fn next(&self, cell: Cell) -> Option<Dir> {
+        self.nearer(cell).next()
+    }
+
+    /// The memory that the field takes, in bytes, without the map that it may share.
+    pub fn bytes(&self) -> usize {
+        let words = match &self.labels {
+            Labels::Half { reached: Reached::Free(_), second, .. } => second.words.len(),
+            Labels::Half { reached: Reached::Only(own), second, .. } => own.words.len() + second.words.len(),
+            Labels::Thirds { low, high } => low.words.len() + high.words.len(),
+        };
+        words * size_of::<u64>()
+    }
+}
+
+/// A bit a cell in row order, without gaps between the rows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Dense {
+    width: usize,
+    words: Vec<u64>,
+}
+
+impl Dense {
+    fn new(map: &Map) -> Self {
+        Self { width: map.width() as usize, words: vec![0; map.cells().div_ceil(64)] }
+    }
+
+    #[inline]
+    fn get(&self, index: usize) -> u8 {
+        (self.words[index / 64] >> (index % 64) & 1) as u8
+    }
+
+    /// Adds a row whose bits behind the last column are 0.
+    fn or_row(&mut self, y: usize, row: &[u64]) {
+        let (word, shift) = (y * self.width / 64, y * self.width % 64);
+        for (i, &bits) in row.iter().enumerate() {
+            if bits != 0 {
+                self.words[word + i] |= bits << shift;
+            }
+            if shift != 0 && bits >> (64 - shift) != 0 {
+                self.words[word + i + 1] |= bits >> (64 - shift);
+            }
+        }
+    }
+}
