@@ -43,6 +43,6 @@ pub use lattice::{Cell, Dir, Lattice};
 pub use map::{BitPlane, Frame, MAX_CELLS, Map, PointM, Tiling};
 pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint, check_program, replay};
 pub use rng::Rng;
-pub use route::{Outcome, Route, RouteFault, check_route};
+pub use route::{Outcome, Route, RouteFault, check_route, check_terrain_route};
 pub use rule::Rule;
-pub use wave::Field;
+pub use wave::{Field, LiveField, Terrain, WeightedField};

@@ -1,6 +1,15 @@
 //! The wave: the flood automaton. From the target on, a free cell that has a reached neighbour is reached at the
 //! next time step.
 
+mod live;
+mod padded;
+mod terrain;
+mod weighted;
+
+pub use live::LiveField;
+pub use terrain::Terrain;
+pub use weighted::WeightedField;
+
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::Map;
