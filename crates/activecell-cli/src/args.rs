@@ -100,6 +100,12 @@ pub(crate) struct RouteArgs {
     /// The rule that moves the active cell
     #[arg(long, value_enum, default_value_t)]
     pub(crate) rule: RuleArg,
+    /// Keep this many metres from obstacles where there is room for it
+    ///
+    /// Measured between centres of cells, so that a cell beside a wall has one cell's size. If the way has narrow
+    /// places the route takes the widest of them, and keeps off walls elsewhere (rule wave).
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) clearance: Option<f64>,
     /// The robot; without it a small one with wheels of 0.2 m perimeter
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) robot: Option<PathBuf>,

@@ -40,7 +40,7 @@ mod wave;
 
 pub use error::Error;
 pub use lattice::{Cell, Dir, Lattice};
-pub use map::{BitPlane, Frame, MAX_CELLS, Map, PointM, Tiling};
+pub use map::{BitPlane, Clearance, Frame, MAX_CELLS, Map, PointM, Tiling};
 pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint, check_program, replay};
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route, check_terrain_route};

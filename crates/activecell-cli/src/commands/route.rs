@@ -4,7 +4,10 @@ use super::Done;
 use super::load::{self, Loaded};
 use crate::args::{DrawArg, RouteArgs, heading};
 use crate::terminal::Terminal;
-use activecell::{Cell, Field, Map, Outcome, Program, Robot, Route, Rule, check_program, check_route};
+use activecell::{
+    Cell, Field, Map, Outcome, Program, Robot, Route, Rule, Terrain, WeightedField, check_program,
+    check_route,
+};
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
 use activecell_picture::{RoutePicture, gif, png, svg, terminal as drawing};
@@ -21,10 +24,34 @@ struct Solved {
     robot: Robot,
     from: Cell,
     to: Cell,
-    field: Option<Field>,
+    field: Option<Flooded>,
     route: Route,
     program: Program,
     report: RouteReport,
+}
+
+/// The field that the rule `wave` follows.
+enum Flooded {
+    Plain(Field),
+    /// Where walls are kept off.
+    Weighted(WeightedField),
+}
+
+impl Flooded {
+    fn route(&self, from: Cell) -> Route {
+        match self {
+            Self::Plain(field) => field.route(from),
+            Self::Weighted(field) => field.route(from),
+        }
+    }
+
+    /// When the wave reached the cell.
+    fn time(&self, cell: Cell) -> Option<u32> {
+        match self {
+            Self::Plain(field) => field.steps(cell),
+            Self::Weighted(field) => field.cost(cell),
+        }
+    }
 }
 
 pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done> {
@@ -59,11 +86,16 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
 
     let started = Instant::now();
     let rule = Rule::from(args.rule);
-    let field = (rule == Rule::Wave).then(|| map.wave_to(to, from)).transpose()?;
+    let wanted = args.clearance.map(|wanted_m| map.terrain_kept_clear(from, to, wanted_m)).transpose()?;
+    let field = match (rule, &wanted) {
+        (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(terrain.wave(to)?)),
+        (Rule::Wave, None) => Some(Flooded::Plain(map.wave_to(to, from)?)),
+        _ => None,
+    };
     let flooded = started.elapsed();
     let route = match &field {
         Some(field) => field.route(from),
-        None => map.route(rule, from, to, args.max_steps)?,
+        None => wanted.as_ref().map_or(&map, Terrain::map).route(rule, from, to, args.max_steps)?,
     };
     let all = started.elapsed();
     let field_seconds = if field.is_some() { flooded.as_secs_f64() } else { 0.0 };
@@ -74,7 +106,8 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let end = if route.outcome() == Outcome::Arrived { to } else { *route.cells().last().unwrap_or(&from) };
     check_route(&map, route.cells(), from, end)?;
     check_program(&map, &robot, &program, route.cells())?;
-    let report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
+    let mut report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
+    report.clearance_m = args.clearance.and_then(|_| map.clearance_m(route.cells()));
     Ok(Solved { map, floor, robot, from, to, field, route, program, report })
 }
 
@@ -99,6 +132,9 @@ fn text(solved: &Solved) -> String {
             text += &format!("all neighbours of {} are obstacles\n", solved.from);
             return text;
         }
+    }
+    if let Some(clearance_m) = report.clearance_m {
+        text += &format!("clearance: {clearance_m:.2} m\n");
     }
     if let Some(heading) = report.heading {
         text += &format!("\nstart at {}, facing {heading}\n", solved.from);
@@ -150,7 +186,7 @@ fn with_picture<T>(solved: &Solved, title: &str, with: impl FnOnce(&RoutePicture
     let width = solved.map.width() as i32;
     let cell = |index: usize| Cell::new(index as i32 % width, index as i32 / width);
     let wave: Option<Vec<Option<u32>>> =
-        solved.field.as_ref().map(|field| (0..solved.map.cells()).map(|i| field.steps(cell(i))).collect());
+        solved.field.as_ref().map(|field| (0..solved.map.cells()).map(|i| field.time(cell(i))).collect());
     let turns = solved.route.turns();
     with(&RoutePicture {
         map: &solved.map,

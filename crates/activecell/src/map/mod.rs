@@ -2,11 +2,13 @@
 
 mod area;
 mod bits;
+mod clearance;
 mod frame;
 mod retile;
 mod text;
 
 pub use bits::{BitPlane, MAX_CELLS};
+pub use clearance::Clearance;
 pub use frame::{Frame, PointM};
 pub use retile::Tiling;
 

@@ -2,6 +2,7 @@
 
 mod cheapest;
 mod check;
+mod clear;
 mod straight;
 
 pub use check::{RouteFault, check_route, check_terrain_route};

@@ -75,10 +75,11 @@ fn many_changes_at_once_equal_a_fresh_flood() {
         let mut now = steps(&map, target);
         for _ in 0..6 {
             let most = [3, 12, 2 * map.cells() as u32][rng.below(3) as usize];
+            let density = [0.1, 0.5, 0.9][rng.below(3) as usize];
             let mut wanted = field.map().obstacles().clone();
             let mut batch = Vec::new();
             for _ in 0..rng.below(most) {
-                let (cell, blocked) = (any_cell(&map, &mut rng), rng.chance(0.5));
+                let (cell, blocked) = (any_cell(&map, &mut rng), rng.chance(density));
                 batch.push((cell, blocked));
                 if map.contains(cell) {
                     wanted.set(cell.x as u32, cell.y as u32, blocked);

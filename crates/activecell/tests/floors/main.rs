@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot make its floors should stop")]
 
+mod clearance;
 mod live;
 mod terrain;
 mod twins;
