@@ -4,5 +4,6 @@
 
 mod clearance;
 mod live;
+mod real;
 mod terrain;
 mod twins;
