@@ -100,6 +100,12 @@ pub(crate) struct RouteArgs {
     /// The rule that moves the active cell
     #[arg(long, value_enum, default_value_t)]
     pub(crate) rule: RuleArg,
+    /// Keep this many metres from obstacles where there is room for it
+    ///
+    /// Measured between centres of cells, so that a cell beside a wall has one cell's size. If the way has narrow
+    /// places the route takes the widest of them, and keeps off walls elsewhere (rule wave).
+    #[arg(long, value_name = "M", allow_negative_numbers = true)]
+    pub(crate) clearance: Option<f64>,
     /// The robot; without it a small one with wheels of 0.2 m perimeter
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) robot: Option<PathBuf>,
@@ -432,10 +438,9 @@ fn extent(map: &Map) -> String {
 pub(crate) fn heading(lattice: Lattice, name: &str) -> anyhow::Result<Dir> {
     lattice.dir_named(name).ok_or_else(|| {
         let names: Vec<&str> = lattice.dirs().map(|dir| lattice.dir_name(dir)).collect();
-        anyhow::anyhow!(
-            "--heading {name}: no such direction on this lattice; use one of {}",
-            names.join(", ")
-        )
+        let names = names.join(", ");
+        WrongArgument(format!("--heading {name}: no such direction on this lattice; use one of {names}"))
+            .into()
     })
 }
 

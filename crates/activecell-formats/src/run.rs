@@ -37,6 +37,9 @@ pub struct RouteReport {
     pub heading: Option<&'static str>,
     /// The program M; empty unless the robot arrived.
     pub program: Vec<WaypointReport>,
+    /// How far the route stays from obstacles, in metres between centres; left out unless it was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance_m: Option<f64>,
     /// How far the robot can be trusted; null until a certificate is asked for.
     pub certificate: Option<()>,
     /// How long it took to find.
@@ -101,6 +104,7 @@ impl RouteReport {
             cycle: route.cycle().iter().map(pair).collect(),
             heading: program.heading.map(|dir: Dir| lattice.dir_name(dir)),
             program: if route.outcome() == Outcome::Arrived { waypoints } else { Vec::new() },
+            clearance_m: None,
             certificate: None,
             seconds,
         }

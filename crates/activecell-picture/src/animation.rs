@@ -11,8 +11,8 @@ use crate::palette::{Palette, SAME, wave_tint};
 use crate::raster;
 use crate::route::{self, Route};
 use crate::scene::Shape;
-use crate::{Error, RoutePicture};
-use activecell::{Cell, Field, Map};
+use crate::{Error, RoutePicture, Wave};
+use activecell::{Cell, Map};
 use std::borrow::Cow;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
@@ -59,7 +59,7 @@ fn show_wave(
     film: &mut Film,
     stage: &mut Stage,
     figure: &Figure<'_>,
-    wave: &Field,
+    wave: Wave<'_>,
     marks: &[Shape],
 ) -> Result<(), Error> {
     let Some(longest) = crate::farthest(figure.map, wave) else { return Ok(()) };
@@ -67,7 +67,7 @@ fn show_wave(
     let mut levels = Vec::new();
     for y in rows {
         for x in columns.clone() {
-            if let Some(steps) = wave.steps(figure.layout.cell_at(x, y)) {
+            if let Some(steps) = wave(figure.layout.cell_at(x, y)) {
                 levels.push((steps, y * stage.below.width() + x));
             }
         }

@@ -1,6 +1,5 @@
 //! The figure: page, title, floor, obstacles, wave and footer, put together into a scene.
 
-use crate::RoutePicture;
 use crate::colour::{self, CLOSED, EDGE, FLOOR, GRID, OBSTACLE, PAGE, TEXT};
 use crate::font;
 use crate::layout::{Layout, Style};
@@ -9,7 +8,8 @@ use crate::outline;
 use crate::route;
 use crate::sample::Sampled;
 use crate::scene::{Line, Point, Scene, Shape, Text, printable};
-use activecell::{Cell, Field, Lattice, Map};
+use crate::{RoutePicture, Wave};
+use activecell::{Cell, Lattice, Map};
 use std::fmt::Write;
 
 /// Cells of at least so many pixels are told apart by thin lines.
@@ -177,11 +177,11 @@ impl<'a> Figure<'a> {
     }
 
     /// The cells that the wave reached, in bands from near to far.
-    fn wave(&self, wave: &Field) -> Vec<Shape> {
+    fn wave(&self, wave: Wave<'_>) -> Vec<Shape> {
         let Some(longest) = crate::farthest(self.map, wave) else { return Vec::new() };
         let bands = u32::from(BANDS).min(longest.saturating_add(1)) as u8;
         let band = |steps: u32| 1 + (u64::from(steps) * u64::from(bands) / (u64::from(longest) + 1)) as u8;
-        let levels = self.levels(|cell| wave.steps(cell).map(band));
+        let levels = self.levels(|cell| wave(cell).map(band));
         let width = self.sampled.width() as usize;
         let level = |cell: Cell| levels[cell.y as usize * width + cell.x as usize];
         // Each band lies on the one before, which reaches below it: no seam between them.

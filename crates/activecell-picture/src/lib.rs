@@ -45,13 +45,16 @@ mod scene;
 mod svg;
 mod terminal;
 
-use activecell::{Cell, Field, Map};
+use activecell::{Cell, Map};
 use figure::Figure;
+
+/// When the wave from the target reached a cell; `None` where it did not come.
+pub type Wave<'a> = &'a dyn Fn(Cell) -> Option<u32>;
 
 /// A route on a map, to be drawn.
 ///
 /// Cells outside the map are left out.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct RoutePicture<'a> {
     /// The map.
     pub map: &'a Map,
@@ -70,7 +73,7 @@ pub struct RoutePicture<'a> {
     /// The cells in which the robot circles for ever, in order; empty if it does not.
     pub cycle: &'a [Cell],
     /// The wave from the target over this map, if the route was found with one.
-    pub wave: Option<&'a Field>,
+    pub wave: Option<Wave<'a>>,
 }
 
 /// Why a picture could not be made.
@@ -155,8 +158,8 @@ pub fn terminal(picture: &RoutePicture<'_>, columns: usize, rows: usize, colour:
 }
 
 /// How far the wave came on the map; `None` if it reached no cell of it.
-fn farthest(map: &Map, wave: &Field) -> Option<u32> {
-    map.free().filter_map(|cell| wave.steps(cell)).max()
+fn farthest(map: &Map, wave: Wave<'_>) -> Option<u32> {
+    map.free().filter_map(wave).max()
 }
 
 fn still(picture: &RoutePicture<'_>) -> scene::Scene {

@@ -88,7 +88,7 @@ fn cells(picture: &RoutePicture<'_>, colour: bool) -> String {
                 pen.put(ink, Some(paper));
                 pen.out.extend([' ', letter]);
             } else if map.is_free(cell) {
-                let steps = picture.wave.and_then(|wave| wave.steps(cell));
+                let steps = picture.wave.and_then(|wave| wave(cell));
                 let paper = match (steps, longest) {
                     (Some(steps), Some(longest)) => wave(f64::from(steps) / f64::from(longest.max(1))),
                     _ => FLOOR,

@@ -2,8 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
 
-use activecell::{Cell, Field, Lattice, Map};
-use activecell_picture::{RoutePicture, gif, map_svg, png, svg, terminal};
+use activecell::{Cell, Lattice, Map};
+use activecell_picture::{RoutePicture, Wave, gif, map_svg, png, svg, terminal};
 use tiny_skia::Pixmap;
 
 const FLOOR: &str = "......\n.##...\n..#.#.\n..#.#.\n....#.\n......";
@@ -21,11 +21,12 @@ fn floor(lattice: Lattice) -> Map {
     Map::parse(lattice, FLOOR).unwrap()
 }
 
-fn wave(map: &Map) -> Field {
-    map.wave(TO).unwrap()
+fn wave(map: &Map) -> impl Fn(Cell) -> Option<u32> {
+    let field = map.wave(TO).unwrap();
+    move |cell| field.steps(cell)
 }
 
-fn picture<'a>(map: &'a Map, cells: &'a [Cell], wave: Option<&'a Field>) -> RoutePicture<'a> {
+fn picture<'a>(map: &'a Map, cells: &'a [Cell], wave: Option<Wave<'a>>) -> RoutePicture<'a> {
     RoutePicture { map, floor: None, title: "floor", from: FROM, to: TO, cells, turns: &[], cycle: &[], wave }
 }
 
@@ -134,7 +135,7 @@ fn a_gif_moves() {
     for lattice in Lattice::ALL {
         let map = floor(lattice);
         let (cells, wave) = (route(), wave(&map));
-        for wave in [None, Some(&wave)] {
+        for wave in [None, Some(&wave as Wave<'_>)] {
             let drawn = picture(&map, &cells, wave);
             let data = gif(&drawn).unwrap();
             assert_eq!(data, gif(&drawn).unwrap());
@@ -211,7 +212,8 @@ fn strange_routes_and_maps() {
 
         let one = Map::parse(lattice, ".").unwrap();
         let origin = Cell::new(0, 0);
-        let (cells, wave) = ([origin], one.wave(origin).unwrap());
+        let field = one.wave(origin).unwrap();
+        let (cells, wave) = ([origin], |cell| field.steps(cell));
         let drawn = RoutePicture { from: origin, to: origin, ..picture(&one, &cells, Some(&wave)) };
         assert!(all(&drawn).width() > 400);
         let wall = Map::parse(lattice, "#").unwrap();

@@ -4,10 +4,12 @@ use super::Done;
 use super::load::{self, Loaded};
 use crate::args::{DrawArg, RouteArgs, WrongArgument, heading};
 use crate::terminal::Terminal;
-use activecell::{Cell, Field, Map, Outcome, Program, Robot, Route, Rule, check_program};
+use activecell::{
+    Cell, Dir, Field, Map, Outcome, Program, Robot, Route, Rule, Terrain, WeightedField, check_program,
+};
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
-use activecell_picture::{RoutePicture, gif, png, svg, terminal as drawing};
+use activecell_picture::{RoutePicture, Wave, gif, png, svg, terminal as drawing};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -21,10 +23,39 @@ struct Solved {
     robot: Robot,
     from: Cell,
     to: Cell,
-    field: Option<Field>,
+    field: Option<Flooded>,
     route: Route,
     program: Program,
     report: RouteReport,
+}
+
+/// The field that the rule `wave` follows.
+enum Flooded {
+    Plain(Field),
+    /// Where walls are kept off.
+    Weighted(WeightedField),
+}
+
+impl Flooded {
+    /// The route for a robot that faces somewhere, or anywhere.
+    fn route(&self, from: Cell, robot: &Robot, facing: Option<Dir>) -> Route {
+        match (self, facing) {
+            (Self::Plain(field), Some(ahead)) => {
+                let back = robot.can_reverse.then_some(field.lattice().opposite(ahead));
+                field.route_facing(from, &std::iter::once(ahead).chain(back).collect::<Vec<_>>())
+            }
+            (Self::Plain(field), None) => field.route(from),
+            (Self::Weighted(field), _) => field.route(from),
+        }
+    }
+
+    /// When the wave reached the cell.
+    fn time(&self, cell: Cell) -> Option<u32> {
+        match self {
+            Self::Plain(field) => field.steps(cell),
+            Self::Weighted(field) => field.cost(cell),
+        }
+    }
 }
 
 pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done> {
@@ -35,7 +66,9 @@ pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done>
         files::write_atomically(path, text.as_bytes())?;
     }
     let (title, turns) = (title(args, &solved), solved.turns());
-    let picture = solved.picture(&title, &turns);
+    let time = |cell: Cell| solved.field.as_ref().and_then(|field| field.time(cell));
+    let wave: Option<Wave<'_>> = if solved.field.is_some() { Some(&time) } else { None };
+    let picture = solved.picture(&title, &turns, wave);
     for (path, kind) in pictures {
         let _working = terminal.working(format!("drawing {}", path.display()));
         let bytes = match kind {
@@ -65,15 +98,16 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let started = Instant::now();
     let rule = Rule::from(args.rule);
     map.check_task(from, to)?;
-    let field = (rule == Rule::Wave).then(|| map.wave(to)).transpose()?;
+    let wanted = args.clearance.map(|wanted_m| map.terrain_kept_clear(from, to, wanted_m)).transpose()?;
+    let field = match (rule, &wanted) {
+        (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(terrain.wave(to)?)),
+        (Rule::Wave, None) => Some(Flooded::Plain(map.wave(to)?)),
+        _ => None,
+    };
     let flooded = started.elapsed();
-    let route = match (&field, facing) {
-        (Some(field), Some(ahead)) => {
-            let back = robot.can_reverse.then_some(map.lattice().opposite(ahead));
-            field.route_facing(from, &std::iter::once(ahead).chain(back).collect::<Vec<_>>())
-        }
-        (Some(field), None) => field.route(from),
-        (None, _) => map.route(rule, from, to, args.max_steps)?,
+    let route = match &field {
+        Some(field) => field.route(from, &robot, facing),
+        None => wanted.as_ref().map_or(&map, Terrain::map).route(rule, from, to, args.max_steps)?,
     };
     let all = started.elapsed();
     let field_seconds = if field.is_some() { flooded.as_secs_f64() } else { 0.0 };
@@ -83,7 +117,8 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let program = route.program(&robot, cell_m, facing);
     route.check(&map, from, to)?;
     check_program(&map, &robot, &program, route.cells())?;
-    let report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
+    let mut report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
+    report.clearance_m = args.clearance.and_then(|_| map.clearance_m(route.cells()));
     Ok(Solved { map, floor, robot, from, to, field, route, program, report })
 }
 
@@ -111,6 +146,9 @@ fn text(solved: &Solved) -> String {
     }
     if program.waypoints.len() == 1 && route.steps() == 0 {
         return text + "the robot is there already\n";
+    }
+    if let Some(clearance_m) = report.clearance_m {
+        text += &format!("clearance: {clearance_m:.2} m\n");
     }
     if let Some(heading) = report.heading {
         text += &format!("\nstart at {}, facing {heading}\n", solved.from);
@@ -164,7 +202,7 @@ impl Solved {
         waypoints.filter(|waypoint| waypoint.turn_deg != 0).map(|waypoint| waypoint.cell).collect()
     }
 
-    fn picture<'a>(&'a self, title: &'a str, turns: &'a [Cell]) -> RoutePicture<'a> {
+    fn picture<'a>(&'a self, title: &'a str, turns: &'a [Cell], wave: Option<Wave<'a>>) -> RoutePicture<'a> {
         RoutePicture {
             map: &self.map,
             floor: self.floor.as_ref(),
@@ -174,7 +212,7 @@ impl Solved {
             cells: self.route.cells(),
             turns,
             cycle: self.route.cycle(),
-            wave: self.field.as_ref(),
+            wave,
         }
     }
 }

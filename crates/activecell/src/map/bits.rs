@@ -42,6 +42,21 @@ impl BitPlane {
         Ok(Self { width: width as u32, height: height as u32, words_per_row, words })
     }
 
+    /// The words of row `y`, to be changed; [`BitPlane::trim`] belongs after it.
+    pub(crate) fn row_mut(&mut self, y: u32) -> &mut [u64] {
+        &mut self.words[y as usize * self.words_per_row..][..self.words_per_row]
+    }
+
+    /// Sets the bits behind the last column to 0 again.
+    pub(crate) fn trim(&mut self) {
+        let beyond = self.width % 64;
+        if beyond > 0 {
+            for last in self.words.chunks_exact_mut(self.words_per_row).filter_map(|row| row.last_mut()) {
+                *last &= !(u64::MAX << beyond);
+            }
+        }
+    }
+
     /// Columns.
     pub const fn width(&self) -> u32 {
         self.width
@@ -79,11 +94,6 @@ impl BitPlane {
     /// Outside the plane.
     pub fn row(&self, y: u32) -> &[u64] {
         &self.words[y as usize * self.words_per_row..][..self.words_per_row]
-    }
-
-    /// The words of row `y`, to be filled; the bits behind the last column must stay 0.
-    pub(crate) fn row_mut(&mut self, y: u32) -> &mut [u64] {
-        &mut self.words[y as usize * self.words_per_row..][..self.words_per_row]
     }
 
     /// How many bits are 1.

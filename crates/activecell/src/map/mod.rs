@@ -1,11 +1,14 @@
 //! Maps: which cells of the floor are obstacles, and where they lie.
 
+mod area;
 mod bits;
+mod clearance;
 mod frame;
 mod retile;
 mod text;
 
 pub use bits::{BitPlane, MAX_CELLS};
+pub use clearance::Clearance;
 pub use frame::{Frame, PointM};
 pub use retile::Tiling;
 
@@ -70,6 +73,11 @@ impl Map {
     #[must_use]
     pub fn on(self, lattice: Lattice) -> Self {
         Self { lattice, ..self }
+    }
+
+    /// Blocks or frees a cell of the map; a plane of obstacles that other maps share is copied first.
+    pub(crate) fn set_obstacle(&mut self, cell: Cell, blocked: bool) {
+        Arc::make_mut(&mut self.obstacles).set(cell.x as u32, cell.y as u32, blocked);
     }
 
     /// The lattice.

@@ -2,6 +2,7 @@
 
 use crate::lattice::Cell;
 use crate::map::Map;
+use crate::wave::Terrain;
 use std::fmt;
 
 /// What is wrong with a route, and at which step (0 is the start).
@@ -17,6 +18,8 @@ pub enum RouteFault {
     Blocked(usize, Cell),
     /// This step does not lead to a neighbour.
     Jump(usize, Cell, Cell),
+    /// This step leads against a one-way cell.
+    WrongWay(usize, Cell, Cell),
 }
 
 impl fmt::Display for RouteFault {
@@ -29,6 +32,9 @@ impl fmt::Display for RouteFault {
                 write!(f, "step {step} leads into {cell}, which is an obstacle or outside")
             }
             Self::Jump(step, from, to) => write!(f, "step {step} jumps from {from} to {to}"),
+            Self::WrongWay(step, from, to) => {
+                write!(f, "step {step} leads from {from} to {to}, against a one-way cell")
+            }
         }
     }
 }
@@ -61,4 +67,43 @@ pub fn check_route(map: &Map, cells: &[Cell], from: Cell, to: Cell) -> Result<()
         }
     }
     if last == to { Ok(()) } else { Err(RouteFault::WrongEnd(last)) }
+}
+
+/// Checks a route over terrain as [`check_route`] does, and that no step leaves a one-way cell in another direction
+/// than its own or enters one head-on; says what the route costs.
+///
+/// # Errors
+/// The first [`RouteFault`]; a cell to keep out of is [`RouteFault::Blocked`].
+///
+/// ```
+/// use activecell::{Cell, Dir, Lattice, Map, RouteFault, Terrain, check_terrain_route};
+/// let mut terrain = Terrain::new(&Map::parse(Lattice::Square, "...")?);
+/// let cells = [Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0)];
+/// terrain.set_cost([cells[2]], 9)?;
+/// assert_eq!(check_terrain_route(&terrain, &cells, cells[0], cells[2]), Ok(10));
+/// terrain.set_one_way([cells[1]], &[Dir::W])?;
+/// let fault = RouteFault::WrongWay(1, cells[0], cells[1]);
+/// assert_eq!(check_terrain_route(&terrain, &cells, cells[0], cells[2]), Err(fault));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn check_terrain_route(
+    terrain: &Terrain,
+    cells: &[Cell],
+    from: Cell,
+    to: Cell,
+) -> Result<u64, RouteFault> {
+    check_route(terrain.map(), cells, from, to)?;
+    let lattice = terrain.map().lattice();
+    let mut cost = 0;
+    for (step, pair) in cells.windows(2).enumerate() {
+        let fault = RouteFault::WrongWay(step + 1, pair[0], pair[1]);
+        let dir = lattice.dir_between(pair[0], pair[1]).ok_or(fault)?;
+        let back = lattice.opposite(dir);
+        let head_on = terrain.may_leave(pair[1], back) && !terrain.may_leave(pair[1], dir);
+        if head_on || !terrain.may_leave(pair[0], dir) {
+            return Err(fault);
+        }
+        cost += u64::from(terrain.cost(pair[1]));
+    }
+    Ok(cost)
 }

@@ -1,9 +1,11 @@
 //! Routes: the active cell followed to its end by one of the rules.
 
+mod cheapest;
 mod check;
+mod clear;
 mod straight;
 
-pub use check::{RouteFault, check_route};
+pub use check::{RouteFault, check_route, check_terrain_route};
 
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};

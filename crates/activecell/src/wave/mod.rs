@@ -2,12 +2,19 @@
 //! next time step.
 
 mod compact;
+mod live;
+mod padded;
 mod queue;
 mod reach;
 mod sweep;
+mod terrain;
 mod tiles;
+mod weighted;
 
 pub use compact::CompactField;
+pub use live::LiveField;
+pub use terrain::Terrain;
+pub use weighted::WeightedField;
 
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
