@@ -1,6 +1,7 @@
 // The Node peer of the benchmarks: l1-path-finder. bench/run.sh runs it.
 //
-//     node peers.mjs WORK OUT paths CASE METHOD    measure and append records to OUT; `-` means all
+//     node peers.mjs WORK OUT paths - -            measure all maps, append records to OUT
+//     node peers.mjs WORK OUT paths CASE METHOD    one growing map
 //     node peers.mjs versions                      names and versions as JSON
 //
 // Node has no CPU clock of a thread that is fine enough, so these are wall times. The planner is made for each map
@@ -79,8 +80,8 @@ if (args[0] === 'versions') {
   console.log(JSON.stringify({ Node: process.versions.node, [NAME]: version(NAME) }))
 } else {
   const [work, out, , only] = args
-  for (const entry of JSON.parse(readFileSync(join(work, 'cases.json'), 'utf8'))) {
-    if (only === '-' ? entry.group !== 'map' : entry.name !== only) continue
+  for (const entry of JSON.parse(readFileSync(join(work, only === '-' ? 'map.json' : 'grow.json'), 'utf8'))) {
+    if (only !== '-' && entry.name !== only) continue
     appendFileSync(out, JSON.stringify(measure(work, entry)) + '\n')
     console.error(`  paths ${entry.name}`)
   }

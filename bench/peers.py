@@ -1,6 +1,7 @@
 """The Python peers of the benchmarks, called as their documents show. bench/run.sh runs it.
 
-    peers.py WORK OUT paths|fields CASE METHOD     measure and append records to OUT; `-` means all
+    peers.py WORK OUT paths|fields - -             measure all methods on all maps, append records to OUT
+    peers.py WORK OUT paths|fields CASE METHOD     one method on one growing map
     peers.py versions                              names and versions as JSON
 
 Times are CPU time of the thread. Graphs and arrays that a peer needs are made outside the timed part.
@@ -275,11 +276,11 @@ def main():
         print(json.dumps({"Python": sys.version.split()[0], **found}))
         return
     work, out, part, only_case, only_method = sys.argv[1:]
-    with open(os.path.join(work, "cases.json")) as file:
+    with open(os.path.join(work, "map.json" if only_case == "-" else "grow.json")) as file:
         cases = json.load(file)
     kinds, measure = {"paths": (PATHS, run_paths), "fields": (FIELDS, run_fields)}[part]
     for case in cases:
-        if case["group"] != "map" if only_case == "-" else case["name"] != only_case:
+        if only_case not in ("-", case["name"]):
             continue
         path = os.path.join(work, case["name"] + ".bin")
         free = np.fromfile(path, dtype=np.uint8).reshape(case["height"], case["width"]) == 0

@@ -1,6 +1,7 @@
 //! Cases: a map, its tasks and the right answers, kept in files that all runners read.
 //!
-//! `cases.json` lists them; each map is a file of bytes, row by row, 0 free and 1 an obstacle.
+//! `map.json` and `grow.json` list them by group, so that a process which measures its memory reads a short list.
+//! Each map is a file of bytes, row by row, 0 free and 1 an obstacle.
 
 use activecell::{BitPlane, Cell, Lattice, Map};
 use anyhow::{Context, Result};
@@ -95,12 +96,15 @@ pub fn save_map(map: &Map, name: &str, folder: &Path) -> Result<()> {
     Ok(file.flush()?)
 }
 
-pub fn save(cases: &[Case], folder: &Path) -> Result<()> {
-    Ok(std::fs::write(folder.join("cases.json"), serde_json::to_string(cases)?)?)
+/// The list of a group's cases.
+pub fn save(cases: &[Case], group: &str, folder: &Path) -> Result<()> {
+    let cases: Vec<&Case> = cases.iter().filter(|case| case.group == group).collect();
+    Ok(std::fs::write(folder.join(format!("{group}.json")), serde_json::to_string(&cases)?)?)
 }
 
-pub fn load(folder: &Path) -> Result<Vec<Case>> {
-    let path = folder.join("cases.json");
+/// Reads the list of a group's cases.
+pub fn load(group: &str, folder: &Path) -> Result<Vec<Case>> {
+    let path = folder.join(format!("{group}.json"));
     let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
     Ok(serde_json::from_str(&text)?)
 }

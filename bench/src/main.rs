@@ -3,7 +3,8 @@
 //! ```text
 //! activecell-bench prepare WORK [--data FOLDER] [--quick]        make the cases
 //! activecell-bench list WORK GROUP                               names of the cases
-//! activecell-bench run WORK OUT paths|fields|repair CASE METHOD  measure; `-` means all
+//! activecell-bench run WORK OUT paths|fields|repair - -          measure all methods on all maps
+//! activecell-bench run WORK OUT paths|fields CASE METHOD         one method on one growing map
 //! activecell-bench count FILE [--update]                         instruction counts
 //! ```
 
@@ -40,7 +41,7 @@ fn main() -> Result<()> {
             prepare::prepare(Path::new(work), data.map(Path::new), rest.contains(&"--quick"))
         }
         ["list", work, group] => {
-            for case in cases::load(Path::new(work))?.iter().filter(|case| case.group == group) {
+            for case in cases::load(group, Path::new(work))? {
                 println!("{} {}", case.name, case.width.max(case.height));
             }
             Ok(())
@@ -61,8 +62,9 @@ fn run(work: &Path, out: &str, part: &str, only_case: &str, only_method: &str) -
         "repair" => &["ours"],
         _ => bail!("no part {part}"),
     };
-    let chosen = |case: &Case| if only_case == "-" { case.group == "map" } else { case.name == only_case };
-    for case in cases::load(work)?.iter().filter(|case| chosen(case)) {
+    let group = if only_case == "-" { "map" } else { "grow" };
+    let chosen = |case: &&Case| only_case == "-" || case.name == only_case;
+    for case in cases::load(group, work)?.iter().filter(chosen) {
         for &method in methods.iter().filter(|&&method| only_method == "-" || only_method == method) {
             if !exists(part, method) {
                 continue;

@@ -47,7 +47,8 @@ pub fn prepare(folder: &Path, data: Option<&Path>, quick: bool) -> Result<()> {
             cases.push(case("grow", "synthetic", &format!("grow-{name}-{size}"), &map, &tasks, folder)?);
         }
     }
-    cases::save(&cases, folder)
+    cases::save(&cases, "map", folder)?;
+    cases::save(&cases, "grow", folder)
 }
 
 /// The real maps in the folder: all of `movingai/`, and those of `ros/` that say what their colours mean.
