@@ -118,11 +118,11 @@ pub struct Live(activecell::LiveField);
 #[cfg(feature = "live")]
 impl Live {
     pub fn new(map: &Map, target: Cell) -> Self {
-        Self(activecell::LiveField::new(map, &[target]).expect("the case's target is free"))
+        Self(activecell::LiveField::new(map, target).expect("the case's target is free"))
     }
 
     pub fn set(&mut self, cell: Cell, blocked: bool) {
-        self.0.set(cell, blocked).expect("the cell is on the map");
+        self.0.set(cell, blocked);
     }
 
     pub fn steps(&self, cell: Cell) -> Option<u32> {
