@@ -9,7 +9,7 @@ cd "$project/bench"
 
 QUICK=${QUICK:-}
 if [ -n "$QUICK" ]; then
-    export BENCH_SECONDS=0.3 BENCH_LEAST=5
+    export BENCH_SECONDS=0.3 BENCH_LEAST=5 BENCH_TIMEOUT=60
 else
     export BENCH_SECONDS=${BENCH_SECONDS:-1.0} BENCH_LEAST=10
 fi
@@ -23,7 +23,7 @@ say() { printf '\n== %s\n' "$*" >&2; }
 
 # One core for everything that is measured: the last one, which has the fewest interrupts.
 pin=()
-if command -v taskset > /dev/null; then pin=(taskset -c "$(($(nproc) - 1))"); fi
+if command -v taskset > /dev/null; then pin=(taskset -c "$(($(env -u OMP_NUM_THREADS nproc) - 1))"); fi
 rust() { "${pin[@]}" "$BENCH" run "$WORK" "$OUT" "$@"; }
 python() { "${pin[@]}" "$PYTHON" peers.py "$WORK" "$OUT" "$@"; }
 node_() { "${pin[@]}" node peers.mjs "$WORK" "$OUT" "$@"; }
