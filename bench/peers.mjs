@@ -4,7 +4,8 @@
 //     node peers.mjs WORK OUT paths CASE METHOD    one growing map
 //     node peers.mjs versions                      names and versions as JSON
 //
-// Node has no CPU clock of a thread that is fine enough, so these are wall times. The planner is made for each map
+// Node 20 has no CPU clock of a thread. Wall time and the CPU time of the whole process are both at least the thread's,
+// so the lesser counts: on a busy machine wall time alone would make this peer look slow. The planner is made for each map
 // outside the timed part; a query gives the way's corners, not its cells.
 
 import { appendFileSync, readFileSync } from 'node:fs'
@@ -51,9 +52,13 @@ function measure(work, entry) {
       if (performance.now() - start > SECONDS * 1e3 && (pass > 0 || i >= LEAST)) break
       const [sx, sy, tx, ty, wanted] = entry.tasks[i]
       const path = []
+      const cpu = process.cpuUsage()
       const clock = process.hrtime.bigint()
       const length = planner.search(sx, sy, tx, ty, path)
-      const us = Number(process.hrtime.bigint() - clock) / 1e3
+      const wallUs = Number(process.hrtime.bigint() - clock) / 1e3
+      const { user, system } = process.cpuUsage(cpu)
+      // CPU time comes in whole microseconds, too coarse for the shortest queries.
+      const us = wallUs < 20 ? wallUs : Math.min(wallUs, user + system)
       if (length !== wanted || steps(path) !== wanted) {
         console.error(`${NAME} on ${entry.name}: from ${sx},${sy} to ${tx},${ty}: ${length} steps, not ${wanted}`)
         process.exit(1)
@@ -67,7 +72,7 @@ function measure(work, entry) {
     case: entry.name,
     part: 'paths',
     method: NAME,
-    clock: 'wall time',
+    clock: 'the lesser of wall time and CPU time of the process',
     setup_ms: setupMs,
     before_kb: beforeKb,
     peak_kb: memoryKb('VmHWM:'),

@@ -51,7 +51,7 @@ def number(value):
 
 
 def times(ratio):
-    return f"×{ratio:.0f}" if ratio >= 9.95 else f"×{ratio:.1f}" if ratio >= 0.995 else f"×{ratio:.2g}"
+    return f"×{ratio:.0f}" if ratio >= 9.95 else f"×{ratio:.1f}" if ratio >= 0.095 else f"×{ratio:.3f}"
 
 
 def quantile(values, share):
@@ -334,6 +334,10 @@ def main():
         "stopped": "".join(f"Stopped: {r['method']} on {r['case']} ({r['part']}).\n" for r in wanting),
         "repair": repair_table(run),
     }
+    node = [r["clock"] for r in run.records.values() if r["method"] == "l1-path-finder" and "clock" in r]
+    text = text.replace("{{clock}}", node[0] if node else "not measured in this run")
+    busy = os.getloadavg()[2] > os.cpu_count()
+    text = text.replace(" {{busy}}", " **The machine was busy: wall times are too long, and all ratios are rough.**" * busy)
     for name, part in parts.items():
         assert f"{{{{{name}}}}}" in text, f"report.md has no place for {name}"
         text = text.replace(f"{{{{{name}}}}}\n", part)
