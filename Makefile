@@ -2,12 +2,14 @@
 # make test    format, lints, documentation, all tests
 # make deps    what only root can install (optional; nothing so far)
 # make docs    the pictures of the documents, drawn anew
+# make bench   every method beside its peers, 20 minutes (QUICK=1: a few); writes docs/benchmarks.md
+# make count   instruction counts of the hot loops against those kept (UPDATE=1 keeps the new ones)
 # make clean   remove everything that was built
 
 ACTIVECELL := $(or $(CARGO_TARGET_DIR),target)/release/activecell
 OFFICE := maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m
 
-.PHONY: demo test deps docs clean
+.PHONY: demo test deps docs bench count clean
 
 demo: $(ACTIVECELL)
 	@mkdir -p out
@@ -45,6 +47,14 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
 
+bench:
+	@QUICK=$(QUICK) bench/run.sh
+
+# Built for any machine, so that the counts do not depend on this one.
+count:
+	cd bench && RUSTFLAGS= cargo run --release --quiet --target-dir target/plain -- \
+	    count instructions.json $(if $(UPDATE),--update)
+
 clean:
 	cargo clean
-	rm -rf out
+	rm -rf out bench/out bench/target bench/.venv bench/node_modules
