@@ -106,9 +106,7 @@ pub fn workload(name: &str) -> Result<()> {
             });
         }
         "wave" => field(ours::Wave(map), cells[0]),
-        #[cfg(feature = "compact")]
         "compact" => field(ours::Compact(map), cells[0]),
-        #[cfg(feature = "compact")]
         "reachable" => field(ours::Reachable(map), cells[0]),
         _ => bail!("no method {method}"),
     }

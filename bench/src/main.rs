@@ -16,7 +16,6 @@ mod ours;
 mod peers;
 mod prepare;
 mod queue;
-#[cfg(feature = "live")]
 mod repair;
 
 use anyhow::{Context, Result, bail};
@@ -114,9 +113,7 @@ fn run_fields(work: &Path, case: &Case, budget: Budget, method: &str) -> Result<
     let start = Instant::now();
     match method {
         "ours" => go(start, case, budget, ours::Wave(map)),
-        #[cfg(feature = "compact")]
         "ours compact" => go(start, case, budget, ours::Compact(map)),
-        #[cfg(feature = "compact")]
         "ours reachable" => go(start, case, budget, ours::Reachable(map)),
         "queue" => go(start, case, budget, queue::Queue::new(&map)),
         "pathfinding bfs_reach" => go(start, case, budget, peers::Reach(peers::Grid::new(&map))),
@@ -124,8 +121,6 @@ fn run_fields(work: &Path, case: &Case, budget: Budget, method: &str) -> Result<
         _ => bail!("no method {method}"),
     }
 }
-
-#[cfg(feature = "live")]
 fn run_repair(work: &Path, case: &Case) -> Result<(f64, Value)> {
     repair::run(&case.load(work)?, case)
 }

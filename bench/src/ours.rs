@@ -7,7 +7,6 @@ use anyhow::{Result, anyhow};
 
 /// One start, one target.
 pub struct Search {
-    #[cfg(feature = "search")]
     search: activecell::Search,
     map: Map,
 }
@@ -15,7 +14,6 @@ pub struct Search {
 impl Search {
     pub fn new(map: &Map) -> Self {
         Self {
-            #[cfg(feature = "search")]
             search: activecell::Search::new(map),
             map: map.clone(),
         }
@@ -25,15 +23,8 @@ impl Search {
 impl Paths for Search {
     type Answer = Result<Option<Vec<Cell>>, activecell::Error>;
 
-    #[cfg(feature = "search")]
     fn find(&mut self, from: Cell, to: Cell) -> Self::Answer {
         self.search.path(from, to)
-    }
-
-    #[cfg(not(feature = "search"))]
-    fn find(&mut self, from: Cell, to: Cell) -> Self::Answer {
-        let route = self.map.route(activecell::Rule::Wave, from, to, usize::MAX)?;
-        Ok((route.outcome() == activecell::Outcome::Arrived).then(|| route.cells().to_vec()))
     }
 
     fn steps(&self, from: Cell, to: Cell, answer: &Self::Answer) -> Result<Option<u32>> {
@@ -60,10 +51,8 @@ impl Fields for Wave {
 
 /// The compact field: which way is nearer, and no more. It is compared by walking: from cells all over the map
 /// the way must be as long as the plain queue's.
-#[cfg(feature = "compact")]
 pub struct Compact(pub Map);
 
-#[cfg(feature = "compact")]
 impl Fields for Compact {
     type Answer = activecell::CompactField;
 
@@ -76,8 +65,10 @@ impl Fields for Compact {
         let field = queue.field(case.target());
         let wanted: Vec<Option<u32>> = queue.field_steps(&field).collect();
         for (cell, wanted) in row_order(case).zip(wanted).step_by(case.free.div_ceil(500) | 1) {
-            let route = answer.route(cell);
-            let found = (route.outcome() == activecell::Outcome::Arrived).then(|| route.steps() as u32);
+            let walked = std::iter::successors(Some(cell), |&at| {
+                answer.next(at).map(|dir| self.0.lattice().neighbour(at, dir))
+            });
+            let found = answer.is_reached(cell).then(|| walked.count() as u32 - 1);
             anyhow::ensure!(
                 found == wanted || !self.0.is_free(cell),
                 "from {cell}: {found:?}, not {wanted:?}"
@@ -88,10 +79,8 @@ impl Fields for Compact {
 }
 
 /// Which cells the wave reaches, and no more.
-#[cfg(feature = "compact")]
 pub struct Reachable(pub Map);
 
-#[cfg(feature = "compact")]
 impl Fields for Reachable {
     type Answer = activecell::BitPlane;
 
@@ -112,10 +101,8 @@ fn row_order(case: &Case) -> impl Iterator<Item = Cell> {
 }
 
 /// A field that is repaired when cells change.
-#[cfg(feature = "live")]
 pub struct Live(activecell::LiveField);
 
-#[cfg(feature = "live")]
 impl Live {
     pub fn new(map: &Map, target: Cell) -> Self {
         Self(activecell::LiveField::new(map, target).expect("the case's target is free"))

@@ -127,6 +127,31 @@ fn the_field_holds_the_distances_of_a_plain_search() {
 }
 
 #[test]
+fn many_fields_are_the_same_on_any_number_of_threads() {
+    for (map, from, to) in tasks(60, 20) {
+        let targets = [from, to, from];
+        let steps = |threads| -> Vec<Vec<Option<u32>>> {
+            let fields = map.waves(&targets, threads).unwrap();
+            fields.iter().map(|field| map.free().map(|cell| field.steps(cell)).collect()).collect()
+        };
+        assert_eq!(steps(1), steps(2));
+        assert_eq!(steps(1), steps(7));
+        assert!(map.waves(&[from, Cell::new(-1, 0)], 2).is_err());
+    }
+}
+
+#[test]
+fn the_nearest_reachable_cell_is_reachable_and_none_is_nearer() {
+    for (map, from, to) in tasks(600, 14) {
+        let found = map.nearest_reachable(from, to).unwrap();
+        let reached = breadth_first(&map, from);
+        let distance = |cell: Cell| map.lattice().distance(cell, to);
+        assert!(reached.contains_key(&found));
+        assert_eq!(Some(distance(found)), reached.keys().map(|&cell| distance(cell)).min());
+    }
+}
+
+#[test]
 fn wave_routes_have_the_fewest_turns_among_the_shortest() {
     for (map, from, to) in tasks(1500, 12) {
         let route = map.route(Rule::Wave, from, to, LIMIT).unwrap();

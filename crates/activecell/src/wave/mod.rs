@@ -84,6 +84,56 @@ impl Map {
         Ok(Field::new(self, targets, steps))
     }
 
+    /// A field for each of many targets, on `threads` threads: the same fields whatever their number.
+    ///
+    /// # Errors
+    /// As [`Map::wave`], for the first target that cannot be entered.
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice, Map};
+    /// let map = Map::parse(Lattice::Hex, "A..\n.#.\n..B")?;
+    /// let docks: Vec<Cell> = map.marks().iter().map(|mark| mark.1).collect();
+    /// let fields = map.waves(&docks, 2)?;
+    /// assert_eq!(fields[0].steps(docks[1]), fields[1].steps(docks[0]));
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn waves(&self, targets: &[Cell], threads: usize) -> Result<Vec<Field>, Error> {
+        let share = targets.len().div_ceil(threads.max(1)).max(1);
+        std::thread::scope(|scope| {
+            let flood = |part: &'_ [Cell]| {
+                part.iter().map(|&target| self.wave(target)).collect::<Result<Vec<_>, _>>()
+            };
+            let parts: Vec<_> = targets.chunks(share).map(|part| scope.spawn(move || flood(part))).collect();
+            let mut fields = Vec::with_capacity(targets.len());
+            for part in parts {
+                fields.extend(part.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?);
+            }
+            Ok(fields)
+        })
+    }
+
+    /// Of the cells that can be reached from `from` the one nearest to `to` on an empty floor, the first in row
+    /// order among equals: where to go when there is no way to `to`, or `to` lies in an obstacle.
+    ///
+    /// # Errors
+    /// [`Error::OutsideMap`] for either cell; [`Error::StartOccupied`].
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice, Map};
+    /// let map = Map::parse(Lattice::Square, "...#.\n...#.")?;
+    /// assert_eq!(map.nearest_reachable(Cell::new(0, 0), Cell::new(4, 1))?, Cell::new(2, 1));
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn nearest_reachable(&self, from: Cell, to: Cell) -> Result<Cell, Error> {
+        self.check_task(from, from)?;
+        if !self.contains(to) {
+            return Err(Error::OutsideMap { cell: to, width: self.width(), height: self.height() });
+        }
+        let reached = self.reachable(&[from])?;
+        let cells = self.free().filter(|cell| reached.get(cell.x as u32, cell.y as u32));
+        Ok(cells.min_by_key(|&cell| self.lattice().distance(cell, to)).unwrap_or(from))
+    }
+
     /// How many runs of free cells, along rows and columns, the map has for each free cell.
     fn clutter(&self) -> f64 {
         let plane = self.obstacles();
