@@ -36,6 +36,7 @@ mod program;
 mod rng;
 mod route;
 pub mod rule;
+pub mod search;
 mod wave;
 
 pub use error::Error;
