@@ -36,7 +36,7 @@ mod program;
 mod rng;
 mod route;
 pub mod rule;
-pub mod search;
+mod search;
 mod wave;
 
 pub use error::Error;
@@ -46,4 +46,5 @@ pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route};
 pub use rule::Rule;
+pub use search::Search;
 pub use wave::Field;

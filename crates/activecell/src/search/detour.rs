@@ -8,7 +8,7 @@
 //! The A* of Hart, Nilsson, Raphael (*A Formal Basis for the Heuristic Determination of Minimum Cost Paths*, 1968);
 //! detour numbers are Hadlock's (*A shortest path algorithm for grid graphs*, Networks 7, 1977).
 
-use super::tiles::{EAST, Grid, WEST};
+use super::tiles::{EAST, Grid, List, WEST};
 use crate::lattice::Cell;
 use crate::map::Map;
 
@@ -30,9 +30,9 @@ struct Tile {
 pub(super) struct Detours {
     grid: Grid,
     tiles: Vec<Tile>,
-    now: Vec<u32>,
-    next: Vec<u32>,
-    touched: Vec<u32>,
+    now: List,
+    next: List,
+    touched: List,
 }
 
 /// For the cells of one tile: from which of them a step in a direction leads towards the target.
@@ -136,8 +136,7 @@ impl Detours {
         let grid = Grid::new(map);
         let mut tiles = vec![Tile::default(); grid.len];
         grid.each_free(map, |tile, free| tiles[tile].free = free);
-        let list = || Vec::with_capacity(grid.len);
-        Self { grid, tiles, now: list(), next: list(), touched: list() }
+        Self { grid, tiles, now: List::new(grid), next: List::new(grid), touched: List::new(grid) }
     }
 
     /// The number of detours that a shortest way makes; its steps are the distance and two for each detour.
@@ -145,22 +144,21 @@ impl Detours {
         self.reset();
         let aim = Aim::new(to);
         let ((start, start_bit), (target, target_bit)) = (self.grid.locate(from), self.grid.locate(to));
-        self.put_next(start, 1 << start_bit);
+        self.hand(start, 0, 1 << start_bit);
         for level in 0.. {
-            if self.next.is_empty() {
+            if self.next.len() == 0 {
                 return None;
             }
-            std::mem::swap(&mut self.now, &mut self.next);
-            let tiles = &mut self.tiles;
-            self.now.retain(|&tile| {
-                let tile = &mut tiles[tile as usize];
-                tile.now = tile.next & !tile.visited;
-                tile.next = 0;
-                tile.now != 0
-            });
+            for tile in self.next.tiles() {
+                let cells = &mut self.tiles[tile];
+                cells.now = cells.next & !cells.visited;
+                cells.next = 0;
+                self.now.put(tile, cells.now != 0);
+            }
+            self.next.clear();
             let odd = if level % 2 == 1 { u64::MAX } else { 0 };
             while let Some(tile) = self.now.pop() {
-                self.spread(tile as usize, odd, &aim);
+                self.spread(tile, odd, &aim);
                 if self.tiles[target].visited >> target_bit & 1 == 1 {
                     return Some(level);
                 }
@@ -175,23 +173,17 @@ impl Detours {
         let stride = self.grid.stride;
         let tile = &mut self.tiles[at];
         let open = tile.free & !tile.visited;
-        let seeds = tile.now & open;
-        tile.now = 0;
-        if seeds == 0 {
-            return;
-        }
-        let towards = aim.towards(at % stride, at / stride);
+        let seeds = std::mem::take(&mut tile.now);
+        let row = at as u32 / stride as u32;
+        let towards = aim.towards(at - row as usize * stride, row as usize);
         let new = towards.fill(seeds, open);
         tile.visited |= new;
         tile.odd |= new & odd;
-        let rest = open & !new;
         let away = (new & !towards.east & !EAST) << 1
             | (new & !towards.west & !WEST) >> 1
             | (new & !towards.south) << 8
             | (new & !towards.north) >> 8;
-        if away & rest != 0 {
-            self.put_next(at, away & rest);
-        }
+        self.hand(at, 0, away);
         self.leave(at + 1, (new & EAST) >> 7, (towards.east & EAST) >> 7);
         self.leave(at - 1, (new & WEST) << 7, (towards.west & WEST) << 7);
         self.leave(at + stride, new >> 56, towards.south >> 56);
@@ -201,40 +193,30 @@ impl Detours {
     /// Hands cells to a neighbouring tile: those of `free_of_cost` at this level, the others at the next.
     #[inline]
     fn leave(&mut self, at: usize, cells: u64, free_of_cost: u64) {
-        let tile = &mut self.tiles[at];
-        let cells = cells & tile.free & !tile.visited;
-        let (now, next) = (cells & free_of_cost, cells & !free_of_cost);
-        if now != 0 {
-            if tile.visited | tile.next | tile.now == 0 {
-                self.touched.push(at as u32);
-            }
-            if tile.now == 0 {
-                self.now.push(at as u32);
-            }
-            tile.now |= now;
-        }
-        if next != 0 {
-            self.put_next(at, next);
+        if cells != 0 {
+            self.hand(at, cells & free_of_cost, cells & !free_of_cost);
         }
     }
 
+    /// Hands cells to a tile, without a branch.
     #[inline]
-    fn put_next(&mut self, at: usize, cells: u64) {
+    fn hand(&mut self, at: usize, now: u64, next: u64) {
         let tile = &mut self.tiles[at];
-        if tile.next == 0 {
-            if tile.visited | tile.now == 0 {
-                self.touched.push(at as u32);
-            }
-            self.next.push(at as u32);
-        }
-        tile.next |= cells;
+        let open = tile.free & !tile.visited;
+        let (now, next) = (now & open, next & open);
+        self.touched.put(at, (tile.visited | tile.now | tile.next == 0) & (now | next != 0));
+        self.now.put(at, (tile.now == 0) & (now != 0));
+        self.next.put(at, (tile.next == 0) & (next != 0));
+        tile.now |= now;
+        tile.next |= next;
     }
 
     fn reset(&mut self) {
-        for tile in self.touched.drain(..) {
-            let tile = &mut self.tiles[tile as usize];
+        for tile in self.touched.tiles() {
+            let tile = &mut self.tiles[tile];
             *tile = Tile { free: tile.free, ..Tile::default() };
         }
+        self.touched.clear();
         self.now.clear();
         self.next.clear();
     }
@@ -276,7 +258,7 @@ impl Detours {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.tiles.capacity() * size_of::<Tile>()
-            + (self.now.capacity() + self.next.capacity() + self.touched.capacity()) * 4
+        let lists = self.now.bytes() + self.next.bytes() + self.touched.bytes();
+        self.tiles.capacity() * size_of::<Tile>() + lists
     }
 }

@@ -18,18 +18,19 @@ const NONE: u32 = u32::MAX;
 /// Places of the table at first, a power of two.
 const FIRST_TABLE: usize = 256;
 
-/// The direction in which a node was reached, a bit each.
-const EAST: u32 = 1;
-const WEST: u32 = 2;
-const SOUTH: u32 = 4;
-const NORTH: u32 = 8;
+/// Where the direction of a node begins; 2²⁸ cells, their rows padded to a power of two, stay below.
+const DIRECTION: u32 = 30;
+const EAST: u32 = 0;
+const WEST: u32 = 1;
+const SOUTH: u32 = 2;
+const NORTH: u32 = 3;
 
 /// A place on the rim of the search.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    /// The cell, packed.
+    /// The cell, packed; in the two highest bits the direction in which it was reached.
     key: u32,
-    /// Steps from the start · 16 + direction.
+    /// Steps from the start · 16 + the direction, a bit each.
     cost: u32,
     /// The node from which it was reached, along a row and then along a column.
     parent: u32,
@@ -49,14 +50,22 @@ pub(super) struct Jumps {
     /// Bits of a packed cell that hold its column.
     shift: u32,
     nodes: Vec<Node>,
-    /// The least cost known of each cell and the directions it was reached in, by open addressing: key + 1 above,
-    /// cost below.
+    /// The most nodes there is room for.
+    most: usize,
+    /// The least cost of each cell, by open addressing: packed cell + 1 above, cost below. Only the first `places`
+    /// are in use, a power of two that grows with the nodes of a query.
     table: Vec<u64>,
-    used: Vec<u32>,
-    /// The first node of each bucket; bucket k holds ways with k detours.
+    places: usize,
+    /// Places of the table in use.
+    used: usize,
+    /// The first node of each bucket, a ring; bucket k holds ways with k detours. A jump is no longer than the map,
+    /// so the buckets in use fit into the ring.
     buckets: Vec<u32>,
-    /// The most bytes that nodes, table and buckets may take.
-    room: usize,
+    /// Nodes in buckets, and the highest bucket that had one.
+    open: usize,
+    highest: u32,
+    /// Whether there was no room for a node: the search is of no use then.
+    full: bool,
     query: Query,
 }
 
@@ -76,16 +85,23 @@ struct Query {
 }
 
 impl Jumps {
+    /// Prepares the map; nodes and their table take at most `room` bytes.
     pub(super) fn new(map: &Map, room: usize) -> Self {
+        let side = map.width().max(map.height()) as usize;
+        let (most, places) = shares(room);
         Self {
             planes: Planes::new(map),
             height: map.height() as i32,
             shift: map.width().next_power_of_two().trailing_zeros(),
-            nodes: Vec::new(),
-            table: vec![0; FIRST_TABLE],
-            used: Vec::new(),
-            buckets: Vec::new(),
-            room,
+            nodes: Vec::with_capacity(most),
+            most,
+            table: vec![0; places],
+            places: FIRST_TABLE,
+            used: 0,
+            buckets: vec![NONE; (side + 1).next_power_of_two()],
+            open: 0,
+            highest: 0,
+            full: false,
             query: Query::default(),
         }
     }
@@ -97,39 +113,41 @@ impl Jumps {
     pub(super) fn run(&mut self, from: Cell, to: Cell) -> Result<Option<u32>, OutOfRoom> {
         self.reset();
         let (first, last) = self.planes.sight(to.x, to.y, self.height);
-        self.query = Query { to, first, last, empty: Lattice::Square.distance(from, to), level: 0, best: None };
+        self.query =
+            Query { to, first, last, empty: Lattice::Square.distance(from, to), level: 0, best: None };
         self.start(from);
-        while (self.query.level as usize) < self.buckets.len() {
+        let mask = self.buckets.len() as u32 - 1;
+        while self.open > 0 && !self.full {
             let level = self.query.level;
             if let Some((steps, _)) = self.query.best
                 && steps <= self.query.empty + 2 * level
             {
                 break;
             }
-            let index = self.buckets[level as usize];
+            let index = self.buckets[(level & mask) as usize];
             if index == NONE {
                 self.query.level += 1;
-                if self.bytes_of_rim() > self.room {
-                    return Err(OutOfRoom);
-                }
                 continue;
             }
-            self.buckets[level as usize] = self.nodes[index as usize].next;
+            self.buckets[(level & mask) as usize] = self.nodes[index as usize].next;
+            self.open -= 1;
             self.expand(index);
         }
-        Ok(self.query.best.map(|best| best.0))
+        if self.full { Err(OutOfRoom) } else { Ok(self.query.best.map(|best| best.0)) }
     }
 
     fn start(&mut self, from: Cell) {
         let (x, y) = (from.x, from.y);
-        self.nodes.push(Node { key: self.key(x, y), cost: EAST | WEST | SOUTH | NORTH, parent: NONE, next: NONE });
-        self.settle(self.nodes[0].key, EAST | WEST | SOUTH | NORTH);
+        // Known in every direction: nothing better comes back to the start.
+        let start = Node { key: self.key(x, y), cost: 15, parent: NONE, next: NONE };
+        if self.settle(start.key, 15) {
+            self.nodes.push(start);
+        }
         if x == self.query.to.x && (self.query.first..=self.query.last).contains(&y) {
             self.query.best = Some((self.query.empty, 0));
-            // The buckets are empty: the search ends.
+            // No node is open: the search ends.
             return;
         }
-        self.buckets.push(NONE);
         let here = self.planes.row(x, y);
         if here.down >> (x % 64) & 1 == 1 {
             self.drop(x, y, 0, 0);
@@ -147,7 +165,7 @@ impl Jumps {
         let steps = node.cost >> 4;
         let here = self.planes.row(x, y);
         let (down, up) = (here.down >> (x % 64) & 1 == 1, here.up >> (x % 64) & 1 == 1);
-        match node.cost & 15 {
+        match node.key >> DIRECTION {
             EAST | WEST => {
                 if down {
                     self.drop(x, y, steps, index);
@@ -155,7 +173,7 @@ impl Jumps {
                 if up {
                     self.rise(x, y, steps, index);
                 }
-                if node.cost & EAST != 0 {
+                if node.key >> DIRECTION == EAST {
                     self.walk::<true>(x, y, steps, index);
                 } else {
                     self.walk::<false>(x, y, steps, index);
@@ -198,12 +216,8 @@ impl Jumps {
             }
             steps += (stop.x - x).unsigned_abs();
             x = stop.x;
-            let key = self.key(x, y);
-            if !self.settle(key, steps << 4 | direction) {
-                return;
-            }
             if self.level(x, y, steps) > self.query.level {
-                self.push(key, steps << 4 | direction, x, y, parent);
+                self.reach(x, y, direction, steps, parent);
                 return;
             }
             if stop.down {
@@ -218,20 +232,27 @@ impl Jumps {
     #[inline]
     fn drop(&mut self, x: i32, y: i32, steps: u32, parent: u32) {
         let corner = self.planes.corner_below(x, y);
-        self.reach(x, corner, (steps + (corner - y) as u32) << 4 | SOUTH, parent);
+        self.reach(x, corner, SOUTH, steps + (corner - y) as u32, parent);
     }
 
     #[inline]
     fn rise(&mut self, x: i32, y: i32, steps: u32, parent: u32) {
         let corner = self.planes.corner_above(x, y);
-        self.reach(x, corner, (steps + (y - corner) as u32) << 4 | NORTH, parent);
+        self.reach(x, corner, NORTH, steps + (y - corner) as u32, parent);
     }
 
+    /// Puts a cell on the rim, unless it was reached as well before.
     #[inline]
-    fn reach(&mut self, x: i32, y: i32, cost: u32, parent: u32) {
+    fn reach(&mut self, x: i32, y: i32, direction: u32, steps: u32, parent: u32) {
         let key = self.key(x, y);
+        let cost = steps << 4 | 1 << direction;
         if self.settle(key, cost) {
-            self.push(key, cost, x, y, parent);
+            let level = self.level(x, y, steps);
+            self.highest = self.highest.max(level);
+            let bucket = level as usize & (self.buckets.len() - 1);
+            let next = std::mem::replace(&mut self.buckets[bucket], self.nodes.len() as u32);
+            self.nodes.push(Node { key: key | direction << DIRECTION, cost, parent, next });
+            self.open += 1;
         }
     }
 
@@ -240,16 +261,6 @@ impl Jumps {
         if self.query.best.is_none_or(|best| steps < best.0) {
             self.query.best = Some((steps, parent));
         }
-    }
-
-    #[inline]
-    fn push(&mut self, key: u32, cost: u32, x: i32, y: i32, parent: u32) {
-        let level = self.level(x, y, cost >> 4) as usize;
-        if level >= self.buckets.len() {
-            self.buckets.resize(level + 1, NONE);
-        }
-        let next = std::mem::replace(&mut self.buckets[level], self.nodes.len() as u32);
-        self.nodes.push(Node { key, cost, parent, next });
     }
 
     /// How many detours a way of `steps` steps to (x, y) has made at least when it comes to the target.
@@ -266,22 +277,27 @@ impl Jumps {
 
     #[inline]
     const fn place(&self, key: u32) -> (i32, i32) {
-        ((key & ((1 << self.shift) - 1)) as i32, (key >> self.shift) as i32)
+        ((key & ((1 << self.shift) - 1)) as i32, (cell_of(key) >> self.shift) as i32)
     }
 
-    /// Notes that a cell was reached; false if it was reached as well before, so that nothing new comes of it.
+    /// Notes that a cell was reached; false if it was reached as well before, so that nothing new comes of it, or
+    /// if there is no room for the node that the caller makes next.
     #[inline]
     fn settle(&mut self, key: u32, cost: u32) -> bool {
-        let mask = self.table.len() - 1;
+        if self.nodes.len() == self.most {
+            self.full = true;
+            return false;
+        }
+        if self.used * 8 >= self.places * 7 {
+            self.grow();
+        }
+        let mask = self.places - 1;
         let mut place = home(key) & mask;
         loop {
             let entry = self.table[place];
             if entry == 0 {
-                self.table[place] = u64::from(key + 1) << 32 | u64::from(cost);
-                self.used.push(place as u32);
-                if self.used.len() * 2 > self.table.len() {
-                    self.grow();
-                }
+                self.table[place] = entry_of(key, cost);
+                self.used += 1;
                 return true;
             }
             if (entry >> 32) as u32 == key + 1 {
@@ -290,34 +306,54 @@ impl Jumps {
                     return false;
                 }
                 let directions = if known >> 4 == cost >> 4 { known & 15 } else { 0 };
-                self.table[place] = u64::from(key + 1) << 32 | u64::from(cost | directions);
+                self.table[place] = entry_of(key, cost | directions);
                 return true;
             }
             place = (place + 1) & mask;
         }
     }
 
+    /// Doubles the part of the table that is in use; the nodes know what stands in it.
+    #[cold]
     fn grow(&mut self) {
-        let larger = vec![0; self.table.len() * 2];
-        let old = std::mem::replace(&mut self.table, larger);
-        let mask = self.table.len() - 1;
-        for used in &mut self.used {
-            let entry = old[*used as usize];
-            let mut place = home((entry >> 32) as u32 - 1) & mask;
-            while self.table[place] != 0 {
+        self.table[..self.places].fill(0);
+        self.places *= 2;
+        let mask = self.places - 1;
+        for node in &self.nodes {
+            let key = cell_of(node.key);
+            let mut place = home(key) & mask;
+            while self.table[place] != 0 && (self.table[place] >> 32) as u32 != key + 1 {
                 place = (place + 1) & mask;
             }
-            self.table[place] = entry;
-            *used = place as u32;
+            // Later nodes of a cell have fewer steps, or as many in another direction.
+            let known = self.table[place] as u32;
+            let directions = if known >> 4 == node.cost >> 4 { known & 15 } else { 0 };
+            self.table[place] = entry_of(key, node.cost | directions);
         }
     }
 
     fn reset(&mut self) {
-        for place in self.used.drain(..) {
-            self.table[place as usize] = 0;
+        if self.used * 4 > self.places {
+            self.table[..self.places].fill(0);
+        } else {
+            // All that is settled has a node. What stands behind its first place without a gap is emptied with it.
+            let mask = self.places - 1;
+            for node in &self.nodes {
+                let mut place = home(cell_of(node.key)) & mask;
+                while self.table[place] != 0 {
+                    self.table[place] = 0;
+                    place = (place + 1) & mask;
+                }
+            }
         }
+        if self.open > 0 {
+            let mask = self.buckets.len() as u32 - 1;
+            for level in self.query.level..=self.highest {
+                self.buckets[(level & mask) as usize] = NONE;
+            }
+        }
+        (self.places, self.used, self.open, self.highest, self.full) = (FIRST_TABLE, 0, 0, 0, false);
         self.nodes.clear();
-        self.buckets.clear();
     }
 
     /// The cells of a shortest way, after [`run`](Self::run) found one of `steps` steps.
@@ -348,20 +384,42 @@ impl Jumps {
         path
     }
 
-    fn bytes_of_rim(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>()
-            + self.table.capacity() * 8
-            + self.used.capacity() * 4
-            + self.buckets.capacity() * 4
-    }
-
     pub(super) fn bytes(&self) -> usize {
-        self.planes.bytes() + self.bytes_of_rim()
+        let rim = self.nodes.capacity() * size_of::<Node>()
+            + self.table.capacity() * 8
+            + self.buckets.capacity() * 4;
+        self.planes.bytes() + rim
     }
+}
+
+/// The most nodes, and the places of their table, that fit into `room` bytes; an eighth of the places stays free.
+fn shares(room: usize) -> (usize, usize) {
+    let mut best = (FIRST_TABLE / 2, FIRST_TABLE);
+    let mut places = FIRST_TABLE;
+    while places * 8 < room {
+        let nodes = ((room - places * 8) / size_of::<Node>()).min(places / 8 * 7);
+        if nodes > best.0 {
+            best = (nodes, places);
+        }
+        places *= 2;
+    }
+    best
+}
+
+/// A cell of the table.
+#[inline]
+const fn entry_of(key: u32, cost: u32) -> u64 {
+    ((key + 1) as u64) << 32 | cost as u64
+}
+
+/// A node's cell, packed, without its direction.
+#[inline]
+const fn cell_of(key: u32) -> u32 {
+    key & ((1 << DIRECTION) - 1)
 }
 
 /// Where a key's place is sought first.
 #[inline]
 const fn home(key: u32) -> usize {
-    (key.wrapping_mul(0x9e37_79b1) >> 8) as usize
+    ((key >> 3).wrapping_mul(0x9e37_79b1) >> 8 << 3 | key & 7) as usize
 }

@@ -3,7 +3,7 @@
 //! A flooded cell keeps its distance modulo 3: neighbours differ by one at most, so three labels are enough to find
 //! the way back (Akers, *A Modification of Lee's Path Connection Algorithm*, 1967).
 
-use super::tiles::{EAST, Grid, WEST};
+use super::tiles::{EAST, Grid, List, WEST};
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
 
@@ -38,9 +38,9 @@ pub(super) struct Floods {
     grid: Grid,
     tiles: Vec<Tile>,
     /// Tiles on the rim of either flood.
-    rims: [Vec<u32>; 2],
-    next: Vec<u32>,
-    touched: Vec<u32>,
+    rims: [List; 2],
+    next: List,
+    touched: List,
     /// Where the floods touch: the last cells of the first and of the second.
     met: Option<(Cell, Cell)>,
 }
@@ -66,8 +66,16 @@ impl Floods {
         let grid = Grid::new(map);
         let mut tiles = vec![Tile::default(); grid.len];
         grid.each_free(map, |tile, free| tiles[tile].free = free);
-        let list = || Vec::with_capacity(grid.len);
-        Self { lattice: map.lattice(), grid, tiles, rims: [list(), list()], next: list(), touched: list(), met: None }
+        let list = || List::new(grid);
+        Self {
+            lattice: map.lattice(),
+            grid,
+            tiles,
+            rims: [list(), list()],
+            next: list(),
+            touched: list(),
+            met: None,
+        }
     }
 
     /// The length of a shortest way between two different cells.
@@ -86,13 +94,12 @@ impl Floods {
             self.advance(flood);
         }
         let mut distance = [0, 0];
-        while !self.rims[0].is_empty() && !self.rims[1].is_empty() {
+        while self.rims[0].len() != 0 && self.rims[1].len() != 0 {
             let flood = usize::from(self.rims[1].len() < self.rims[0].len());
             let ink = Ink::new(distance[flood] + 1, flood);
-            let rim = std::mem::take(&mut self.rims[flood]);
             let mut met = false;
-            for &tile in &rim {
-                let at = tile as usize;
+            for i in 0..self.rims[flood].len() {
+                let at = self.rims[flood].get(i);
                 let cells = self.tiles[at].rim & !(self.tiles[at].second ^ ink.second);
                 self.tiles[at].rim ^= cells;
                 if self.spread::<HEX>(at, cells, ink) {
@@ -101,7 +108,6 @@ impl Floods {
                     break;
                 }
             }
-            self.rims[flood] = rim;
             if met {
                 return Some(distance[0] + 1 + distance[1]);
             }
@@ -113,8 +119,8 @@ impl Floods {
 
     /// Makes the new rim the rim.
     fn advance(&mut self, flood: usize) {
-        for &tile in &self.next {
-            let tile = &mut self.tiles[tile as usize];
+        for tile in self.next.tiles() {
+            let tile = &mut self.tiles[tile];
             tile.rim |= tile.next;
             tile.next = 0;
         }
@@ -136,49 +142,34 @@ impl Floods {
             let (far_east, far_west) = ((cells & !EVEN & EAST) >> 7, (cells & EVEN & WEST) << 7);
             east |= far_east << 8 | far_east >> 8;
             west |= far_west << 8 | far_west >> 8;
-            if far_east >> 56 != 0 {
-                met |= self.pour(at + stride + 1, far_east >> 56, ink);
-            }
-            if far_west << 56 != 0 {
-                met |= self.pour(at - stride - 1, far_west << 56, ink);
-            }
+            met |= self.pour(at + stride + 1, far_east >> 56, ink);
+            met |= self.pour(at - stride - 1, far_west << 56, ink);
         }
         inside |= upright << 8 | upright >> 8;
         met |= self.pour(at, inside, ink);
-        if east != 0 {
-            met |= self.pour(at + 1, east, ink);
-        }
-        if west != 0 {
-            met |= self.pour(at - 1, west, ink);
-        }
-        if upright << 56 != 0 {
-            met |= self.pour(at - stride, upright << 56, ink);
-        }
-        if upright >> 56 != 0 {
-            met |= self.pour(at + stride, upright >> 56, ink);
-        }
+        met |= self.pour(at + 1, east, ink);
+        met |= self.pour(at - 1, west, ink);
+        met |= self.pour(at - stride, upright << 56, ink);
+        met |= self.pour(at + stride, upright >> 56, ink);
         met
     }
 
     /// Floods cells of a tile; true if one of them belongs to the other flood.
     #[inline]
     fn pour(&mut self, at: usize, cells: u64, ink: Ink) -> bool {
+        if cells == 0 {
+            return false;
+        }
         let tile = &mut self.tiles[at];
         let cells = cells & tile.free;
         let flooded = tile.flooded();
         let new = cells & !flooded;
-        if new != 0 {
-            if tile.next == 0 {
-                self.next.push(at as u32);
-                if flooded == 0 {
-                    self.touched.push(at as u32);
-                }
-            }
-            tile.next |= new;
-            tile.low |= new & ink.low;
-            tile.high |= new & ink.high;
-            tile.second |= new & ink.second;
-        }
+        self.touched.put(at, (flooded == 0) & (new != 0));
+        self.next.put(at, (tile.next == 0) & (new != 0));
+        tile.next |= new;
+        tile.low |= new & ink.low;
+        tile.high |= new & ink.high;
+        tile.second |= new & ink.second;
         cells & flooded & (tile.second ^ ink.second) != 0
     }
 
@@ -201,11 +192,12 @@ impl Floods {
     }
 
     fn reset(&mut self) {
-        for tile in self.touched.drain(..) {
-            let tile = &mut self.tiles[tile as usize];
+        for tile in self.touched.tiles() {
+            let tile = &mut self.tiles[tile];
             *tile = Tile { free: tile.free, ..Tile::default() };
         }
-        self.rims.iter_mut().for_each(Vec::clear);
+        self.touched.clear();
+        self.rims.iter_mut().for_each(List::clear);
         self.next.clear();
         self.met = None;
     }
@@ -248,7 +240,7 @@ impl Floods {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        let lists = self.rims[0].capacity() + self.rims[1].capacity() + self.next.capacity() + self.touched.capacity();
-        self.tiles.capacity() * size_of::<Tile>() + lists * 4
+        let lists = self.rims[0].bytes() + self.rims[1].bytes() + self.next.bytes() + self.touched.bytes();
+        self.tiles.capacity() * size_of::<Tile>() + lists
     }
 }

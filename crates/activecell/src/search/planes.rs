@@ -68,8 +68,7 @@ impl Planes {
     fn sweep(&mut self, here: usize, next: usize, plane: fn(&mut Row) -> &mut u64) {
         let (here, next) = (here * self.words, next * self.words);
         // Cells of the next row that open beside an obstacle of this row.
-        let opens =
-            |rows: &[Row], word: usize| rows[next + word].free & !rows[here + word].free;
+        let opens = |rows: &[Row], word: usize| rows[next + word].free & !rows[here + word].free;
         let (mut before, mut this) = (0, opens(&self.rows, 0));
         for word in 0..self.words {
             let after = if word + 1 < self.words { opens(&self.rows, word + 1) } else { 0 };
@@ -220,7 +219,11 @@ impl Planes {
 
 #[inline]
 fn stop(word: usize, bit: u32, cells: Row) -> Stop {
-    Stop { x: (word * 64) as i32 + bit as i32, down: cells.down >> bit & 1 == 1, up: cells.up >> bit & 1 == 1 }
+    Stop {
+        x: (word * 64) as i32 + bit as i32,
+        down: cells.down >> bit & 1 == 1,
+        up: cells.up >> bit & 1 == 1,
+    }
 }
 
 /// Turns a block of 64 × 64 bits about its diagonal, halves first (Henry S. Warren, *Hacker's Delight*, 2002).
@@ -254,24 +257,35 @@ mod tests {
 
     #[test]
     fn sweeps_equal_walks_cell_by_cell() {
-        for (seed, (w, h)) in [(1, 1), (1, 70), (70, 1), (64, 64), (65, 63), (130, 129)].into_iter().enumerate() {
+        for (seed, (w, h)) in
+            [(1, 1), (1, 70), (70, 1), (64, 64), (65, 63), (130, 129)].into_iter().enumerate()
+        {
             for density in [0.0, 0.05, 0.3] {
                 let map = Map::random(Lattice::Square, w, h, density, seed as u64).unwrap();
                 let planes = Planes::new(&map);
                 for cell in map.free() {
-                    for (dy, bits) in [(1, planes.row(cell.x, cell.y).down), (-1, planes.row(cell.x, cell.y).up)] {
+                    for (dy, bits) in
+                        [(1, planes.row(cell.x, cell.y).down), (-1, planes.row(cell.x, cell.y).up)]
+                    {
                         let mut walk = (1..).map(|i| Cell::new(cell.x, cell.y + i * dy));
                         let end = walk.find(|&at| !map.is_free(at) || forced(&map, at, dy)).unwrap();
                         let found = bits >> (cell.x % 64) & 1 == 1;
                         assert_eq!(found, map.is_free(end), "{cell} {dy}");
                         if found {
-                            let corner = if dy == 1 { planes.corner_below(cell.x, cell.y) } else { planes.corner_above(cell.x, cell.y) };
+                            let corner = if dy == 1 {
+                                planes.corner_below(cell.x, cell.y)
+                            } else {
+                                planes.corner_above(cell.x, cell.y)
+                            };
                             assert_eq!(corner, end.y);
                         }
                     }
                     let (first, last) = planes.sight(cell.x, cell.y, h as i32);
                     assert!((first..=last).all(|y| map.is_free(Cell::new(cell.x, y))));
-                    assert!(!map.is_free(Cell::new(cell.x, first - 1)) && !map.is_free(Cell::new(cell.x, last + 1)));
+                    assert!(
+                        !map.is_free(Cell::new(cell.x, first - 1))
+                            && !map.is_free(Cell::new(cell.x, last + 1))
+                    );
                 }
             }
         }

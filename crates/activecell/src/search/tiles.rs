@@ -49,3 +49,51 @@ impl Grid {
         }
     }
 }
+
+/// A list of tiles, each at most once, that grows without a branch: where tiles come in no foreseeable order a
+/// branch costs more than a write that may be in vain.
+#[derive(Debug, Clone)]
+pub(super) struct List {
+    items: Vec<u32>,
+    len: usize,
+}
+
+impl List {
+    pub(super) fn new(grid: Grid) -> Self {
+        Self { items: vec![0; grid.len + 1], len: 0 }
+    }
+
+    /// Appends a tile if it is `wanted`.
+    #[inline]
+    pub(super) fn put(&mut self, tile: usize, wanted: bool) {
+        self.items[self.len] = tile as u32;
+        self.len += usize::from(wanted);
+    }
+
+    #[inline]
+    pub(super) fn pop(&mut self) -> Option<usize> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.items[self.len] as usize)
+    }
+
+    #[inline]
+    pub(super) fn get(&self, i: usize) -> usize {
+        self.items[i] as usize
+    }
+
+    pub(super) fn tiles(&self) -> impl Iterator<Item = usize> + '_ {
+        self.items[..self.len].iter().map(|&tile| tile as usize)
+    }
+
+    pub(super) const fn len(&self) -> usize {
+        self.len
+    }
+
+    pub(super) const fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    pub(super) const fn bytes(&self) -> usize {
+        self.items.capacity() * 4
+    }
+}
