@@ -200,6 +200,7 @@ impl Detours {
 
     /// Hands cells to a tile, without a branch.
     #[inline]
+    #[expect(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch that cannot be foreseen")]
     fn hand(&mut self, at: usize, now: u64, next: u64) {
         let tile = &mut self.tiles[at];
         let open = tile.free & !tile.visited;

@@ -156,6 +156,7 @@ impl Floods {
 
     /// Floods cells of a tile; true if one of them belongs to the other flood.
     #[inline]
+    #[expect(clippy::needless_bitwise_bool, reason = "a lazy operator is a branch that cannot be foreseen")]
     fn pour(&mut self, at: usize, cells: u64, ink: Ink) -> bool {
         if cells == 0 {
             return false;

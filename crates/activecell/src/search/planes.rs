@@ -134,7 +134,7 @@ impl Planes {
             let cells = row[word];
             let stops = (!cells.free | cells.down | cells.up) & ahead;
             if stops != 0 {
-                return stop(word, 63 - stops.leading_zeros(), cells);
+                return stop(word, stops.ilog2(), cells);
             }
             ahead = u64::MAX;
         }
@@ -178,7 +178,7 @@ impl Planes {
             let (w, e) = (west[word], east[word]);
             let corners = (w & !(w >> 1 | below_w) | e & !(e >> 1 | below_e)) & ahead;
             if corners != 0 {
-                return (word * 64) as i32 + 63 - corners.leading_zeros() as i32;
+                return (word * 64) as i32 + corners.ilog2() as i32;
             }
             (below_w, below_e) = (w << 63, e << 63);
             ahead = u64::MAX;

@@ -193,7 +193,7 @@ fn a_rim_without_room_gives_the_query_up_and_nothing_else() {
 
 #[test]
 fn a_query_without_room_is_answered_in_the_same_memory() {
-    let map = Map::random(Lattice::Square, 200, 200, 0.3, 2).unwrap();
+    let map = Map::random(Lattice::Square, 200, 200, 0.2, 2).unwrap();
     let (from, to) = (map.free().next().unwrap(), map.free().last().unwrap());
     let mut search = Search::by(&map, Method::Jump);
     search.engine = Engine::Jump(Box::new(Jumps::new(&map, 0)));
