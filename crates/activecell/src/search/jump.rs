@@ -53,7 +53,8 @@ pub(super) struct Jumps {
     /// The most nodes there is room for.
     most: usize,
     /// The least cost of each cell, by open addressing: packed cell + 1 above, cost below. Only the first `places`
-    /// are in use, a power of two that grows with the nodes of a query.
+    /// are in use, a power of two that grows so that half of
+    /// them stay free while there is room.
     table: Vec<u64>,
     places: usize,
     /// Places of the table in use.
@@ -288,7 +289,7 @@ impl Jumps {
             self.full = true;
             return false;
         }
-        if self.used * 8 >= self.places * 7 {
+        if self.used * 2 >= self.places && self.places < self.table.len() {
             self.grow();
         }
         let mask = self.places - 1;
@@ -352,7 +353,7 @@ impl Jumps {
                 self.buckets[(level & mask) as usize] = NONE;
             }
         }
-        (self.places, self.used, self.open, self.highest, self.full) = (FIRST_TABLE, 0, 0, 0, false);
+        (self.used, self.open, self.highest, self.full) = (0, 0, 0, false);
         self.nodes.clear();
     }
 
