@@ -16,8 +16,7 @@ const MAPS: [&str; 4] = ["rooms", "random20", "random40", "maze1"];
 const METHODS: [&str; 4] = ["paths", "wave", "compact", "reachable"];
 
 fn names() -> impl Iterator<Item = String> {
-    let there = |method: &&str| cfg!(feature = "compact") || !matches!(*method, "compact" | "reachable");
-    METHODS.into_iter().filter(there).flat_map(|method| MAPS.map(|map| format!("{method} {map}")))
+    METHODS.into_iter().flat_map(|method| MAPS.map(|map| format!("{method} {map}")))
 }
 
 /// Counts every workload and compares with the figures in `file`, or writes them there.

@@ -65,9 +65,6 @@ fn run(work: &Path, out: &str, part: &str, only_case: &str, only_method: &str) -
     let chosen = |case: &&Case| only_case == "-" || case.name == only_case;
     for case in cases::load(group, work)?.iter().filter(chosen) {
         for &method in methods.iter().filter(|&&method| only_method == "-" || only_method == method) {
-            if !exists(part, method) {
-                continue;
-            }
             record(&mut out, case, part, method, || match part {
                 "paths" => run_paths(work, case, budget, method),
                 "fields" => run_fields(work, case, budget, method),
@@ -77,12 +74,6 @@ fn run(work: &Path, out: &str, part: &str, only_case: &str, only_method: &str) -
         eprintln!("  {part} {}", case.name);
     }
     Ok(())
-}
-
-/// Whether the core as built has what the method measures.
-fn exists(part: &str, method: &str) -> bool {
-    let compact = matches!(method, "ours compact" | "ours reachable");
-    (part != "repair" || cfg!(feature = "live")) && (!compact || cfg!(feature = "compact"))
 }
 
 fn run_paths(work: &Path, case: &Case, budget: Budget, method: &str) -> Result<(f64, Value)> {
@@ -121,11 +112,7 @@ fn run_fields(work: &Path, case: &Case, budget: Budget, method: &str) -> Result<
         _ => bail!("no method {method}"),
     }
 }
+
 fn run_repair(work: &Path, case: &Case) -> Result<(f64, Value)> {
     repair::run(&case.load(work)?, case)
-}
-
-#[cfg(not(feature = "live"))]
-fn run_repair(_: &Path, _: &Case) -> Result<(f64, Value)> {
-    bail!("this core repairs no fields")
 }

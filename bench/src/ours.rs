@@ -13,10 +13,7 @@ pub struct Search {
 
 impl Search {
     pub fn new(map: &Map) -> Self {
-        Self {
-            search: activecell::Search::new(map),
-            map: map.clone(),
-        }
+        Self { search: activecell::Search::new(map), map: map.clone() }
     }
 }
 

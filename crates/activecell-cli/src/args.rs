@@ -97,6 +97,9 @@ pub(crate) struct RouteArgs {
     /// Where it should go
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub(crate) to: Place,
+    /// If there is no way to the target, go to the cell nearest to it that can be reached
+    #[arg(long)]
+    pub(crate) nearest: bool,
     /// The rule that moves the active cell
     #[arg(long, value_enum, default_value_t)]
     pub(crate) rule: RuleArg,

@@ -37,6 +37,7 @@ mod program;
 mod rng;
 mod route;
 pub mod rule;
+mod search;
 mod wave;
 
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
@@ -47,4 +48,5 @@ pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route, check_terrain_route};
 pub use rule::Rule;
+pub use search::Search;
 pub use wave::{CompactField, Field, LiveField, Terrain, WeightedField};

@@ -92,7 +92,11 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let Loaded { map, floor, .. } = load::map(&args.map, given.as_ref(), terminal)?;
     let robot = given.unwrap_or_default();
     let facing = args.heading.as_deref().map(|name| heading(map.lattice(), name)).transpose()?;
-    let (from, to) = (args.from.on(&map)?, args.to.on(&map)?);
+    let (from, wanted_to) = (args.from.on(&map)?, args.to.on(&map)?);
+    let to = if args.nearest { map.nearest_reachable(from, wanted_to)? } else { wanted_to };
+    if to != wanted_to {
+        terminal.note(&format!("note: there is no way to {wanted_to}; the nearest cell with one is {to}"));
+    }
     let _working = terminal.working("finding the route");
 
     let started = Instant::now();

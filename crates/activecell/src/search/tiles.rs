@@ -1,0 +1,99 @@
+//! Tiles: 8 × 8 cells in a word, bit `8 · (y % 8) + x % 8`, with one empty tile around the map.
+
+use super::planes::free_word;
+use crate::lattice::Cell;
+use crate::map::Map;
+
+/// The cells of column 0 and of column 7 of a tile.
+pub(super) const WEST: u64 = 0x0101_0101_0101_0101;
+pub(super) const EAST: u64 = WEST << 7;
+
+/// How tiles are numbered.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Grid {
+    /// Tiles from one row of tiles to the next.
+    pub(super) stride: usize,
+    /// Tiles in all, the empty ones around the map with them.
+    pub(super) len: usize,
+}
+
+impl Grid {
+    pub(super) fn new(map: &Map) -> Self {
+        let stride = map.width().div_ceil(8) as usize + 2;
+        Self { stride, len: stride * (map.height().div_ceil(8) as usize + 2) }
+    }
+
+    /// The number of the cell's tile and the cell's bit. The column -1 and the row -1 lie in empty tiles.
+    #[inline]
+    pub(super) fn locate(self, cell: Cell) -> (usize, u32) {
+        let (x, y) = ((cell.x + 8) as usize, (cell.y + 8) as usize);
+        (y / 8 * self.stride + x / 8, (y % 8 * 8 + x % 8) as u32)
+    }
+
+    /// Calls `put` with each tile's number and its free cells.
+    pub(super) fn each_free(self, map: &Map, mut put: impl FnMut(usize, u64)) {
+        let (width, height) = (map.width() as usize, map.height());
+        for top in (0..height).step_by(8) {
+            for word in 0..width.div_ceil(64) {
+                let mut lines = [0u64; 8];
+                for (line, y) in lines.iter_mut().zip(top..height) {
+                    *line = free_word(map.obstacles(), y, word);
+                }
+                let tiles = (width - word * 64).min(64).div_ceil(8);
+                let first = (top as usize / 8 + 1) * self.stride + word * 8 + 1;
+                for tile in 0..tiles {
+                    let bits = lines.iter().rev().fold(0, |bits, line| bits << 8 | line >> (8 * tile) & 0xff);
+                    put(first + tile, bits);
+                }
+            }
+        }
+    }
+}
+
+/// A list of tiles, each at most once, that grows without a branch: where tiles come in no foreseeable order a
+/// branch costs more than a write that may be in vain.
+#[derive(Debug, Clone)]
+pub(super) struct List {
+    items: Vec<u32>,
+    len: usize,
+}
+
+impl List {
+    pub(super) fn new(grid: Grid) -> Self {
+        Self { items: vec![0; grid.len + 1], len: 0 }
+    }
+
+    /// Appends a tile if it is `wanted`.
+    #[inline]
+    pub(super) fn put(&mut self, tile: usize, wanted: bool) {
+        self.items[self.len] = tile as u32;
+        self.len += usize::from(wanted);
+    }
+
+    #[inline]
+    pub(super) fn pop(&mut self) -> Option<usize> {
+        self.len = self.len.checked_sub(1)?;
+        Some(self.items[self.len] as usize)
+    }
+
+    #[inline]
+    pub(super) fn get(&self, i: usize) -> usize {
+        self.items[i] as usize
+    }
+
+    pub(super) fn tiles(&self) -> impl Iterator<Item = usize> + '_ {
+        self.items[..self.len].iter().map(|&tile| tile as usize)
+    }
+
+    pub(super) const fn len(&self) -> usize {
+        self.len
+    }
+
+    pub(super) const fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    pub(super) const fn bytes(&self) -> usize {
+        self.items.capacity() * 4
+    }
+}
