@@ -3,8 +3,6 @@
 //! The folder is that of `ACTIVECELL_DATA`, else `shared/data` beside the project; where it is missing the test
 //! says so and passes.
 
-#![expect(clippy::unwrap_used, reason = "a test that cannot read its maps should stop")]
-
 use activecell::{Cell, Map, Search, check_route};
 use activecell_formats::files::{ReadOptions, read_map};
 use activecell_formats::movingai::read_scen;
