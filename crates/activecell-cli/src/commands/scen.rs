@@ -3,7 +3,7 @@
 use super::Done;
 use crate::args::ScenArgs;
 use crate::terminal::Terminal;
-use activecell::{Error, Lattice, Map, Outcome, Rule};
+use activecell::{Error, Lattice, Map, Outcome, Rule, Search, check_route};
 use activecell_formats::files::{self, ReadOptions};
 use activecell_formats::movingai::{self, Task};
 use anyhow::Context;
@@ -49,10 +49,12 @@ pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> 
     for task in &tasks {
         fits(task, &map).with_context(|| format!("{} line {}", args.scen.display(), task.line))?;
     }
+    // One start, one target: the wave's shortest way can be had without flooding the map.
+    let mut search = (rule == Rule::Wave).then(|| Search::new(&map));
     let bar = terminal.counting(tasks.len() as u64, "routing");
     let mut rows = Vec::with_capacity(tasks.len());
     for task in &tasks {
-        rows.push(solve(&map, rule, task, args.max_steps)?);
+        rows.push(solve(&map, search.as_mut(), rule, task, args.max_steps)?);
         bar.step();
     }
     drop(bar);
@@ -80,14 +82,29 @@ fn fits(task: &Task, map: &Map) -> anyhow::Result<()> {
 }
 
 /// One row. A task that cannot be set, or takes too long, is a row too: the others are still worth their answer.
-fn solve(map: &Map, rule: Rule, task: &Task, max_steps: usize) -> anyhow::Result<Row> {
+fn solve(
+    map: &Map,
+    search: Option<&mut Search>,
+    rule: Rule,
+    task: &Task,
+    max_steps: usize,
+) -> anyhow::Result<Row> {
     let started = Instant::now();
-    let route = map.route(rule, task.from, task.to, max_steps);
+    let found = match search {
+        Some(search) => search.path(task.from, task.to).map(|path| match path {
+            Some(cells) => (Outcome::Arrived, cells),
+            None => (Outcome::Unreachable, vec![task.from]),
+        }),
+        None => map
+            .route(rule, task.from, task.to, max_steps)
+            .map(|route| (route.outcome(), route.cells().to_vec())),
+    };
     let us = started.elapsed().as_secs_f64() * 1e6;
-    let (outcome, steps) = match route {
-        Ok(route) => {
-            route.check(map, task.from, task.to)?;
-            (route.outcome().name(), route.steps())
+    let (outcome, steps) = match found {
+        Ok((outcome, cells)) => {
+            let end = if outcome == Outcome::Arrived { Some(&task.to) } else { cells.last() };
+            check_route(map, &cells, task.from, *end.unwrap_or(&task.from))?;
+            (outcome.name(), cells.len() - 1)
         }
         Err(Error::StartOccupied { .. }) => ("start_occupied", 0),
         Err(Error::TargetOccupied { .. }) => ("target_occupied", 0),

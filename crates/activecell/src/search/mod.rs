@@ -1,6 +1,6 @@
 //! One start, one target: a shortest path on the bare map, without touching the rest of it.
 //!
-//! Three exact methods, of which the map's look chooses one, since each is far ahead of the others somewhere
+//! Three exact methods, of which the map's look chooses one, since each is ahead of the others somewhere
 //! (mean time of a query, own measurement on `MovingAI` maps):
 //!
 //! | method | file | chosen for |
