@@ -39,13 +39,21 @@ enum Flooded {
 impl Flooded {
     /// The route for a robot that faces somewhere, or anywhere.
     fn route(&self, from: Cell, robot: &Robot, facing: Option<Dir>) -> Route {
-        match (self, facing) {
-            (Self::Plain(field), Some(ahead)) => {
-                let back = robot.can_reverse.then_some(field.lattice().opposite(ahead));
-                field.route_facing(from, &std::iter::once(ahead).chain(back).collect::<Vec<_>>())
-            }
-            (Self::Plain(field), None) => field.route(from),
-            (Self::Weighted(field), _) => field.route(from),
+        let Some(ahead) = facing else {
+            return match self {
+                Self::Plain(field) => field.route(from),
+                Self::Weighted(field) => field.route(from),
+            };
+        };
+        let lattice = match self {
+            Self::Plain(field) => field.lattice(),
+            Self::Weighted(field) => field.terrain().map().lattice(),
+        };
+        let back = robot.can_reverse.then_some(lattice.opposite(ahead));
+        let facing: Vec<Dir> = std::iter::once(ahead).chain(back).collect();
+        match self {
+            Self::Plain(field) => field.route_facing(from, &facing),
+            Self::Weighted(field) => field.route_facing(from, &facing),
         }
     }
 

@@ -1,9 +1,8 @@
 //! Routes: the active cell followed to its end by one of the rules.
 
-mod cheapest;
 mod check;
 mod clear;
-mod straight;
+mod downhill;
 
 pub use check::{RouteFault, check_route, check_terrain_route};
 
@@ -11,7 +10,6 @@ use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::Map;
 use crate::rule::{Decision, Levels, Rule, Sector, decide, neighbourhood};
-use crate::wave::Field;
 use std::collections::HashMap;
 use std::fmt;
 
@@ -129,33 +127,6 @@ impl Map {
             Rule::Learning => learning(self, from, to, max_steps),
             Rule::Wave => Ok(self.wave(to)?.route(from)),
         }
-    }
-}
-
-impl Field {
-    /// A shortest route from `from` to the nearest target, and among the shortest one with the fewest turns.
-    ///
-    /// Where the wave did not come the outcome is [`Outcome::Unreachable`] and the route is the start alone.
-    pub fn route(&self, from: Cell) -> Route {
-        let facing: Vec<Dir> = self.lattice().dirs().collect();
-        self.route_facing(from, &facing)
-    }
-
-    /// As [`Field::route`], for a robot that faces somewhere already: the first step is no turn if it leads in one
-    /// of the directions `facing` (where the robot faces, and straight back if it can reverse).
-    ///
-    /// ```
-    /// use activecell::{Cell, Dir, Lattice, Map};
-    /// let map = Map::parse(Lattice::Square, "...\n...\n...")?;
-    /// let route = map.wave(Cell::new(2, 0))?.route_facing(Cell::new(0, 2), &[Dir::N]);
-    /// assert_eq!(route.cells()[1], Cell::new(0, 1));
-    /// # Ok::<(), activecell::Error>(())
-    /// ```
-    pub fn route_facing(&self, from: Cell, facing: &[Dir]) -> Route {
-        let reached = self.steps(from).is_some();
-        let outcome = if reached { Outcome::Arrived } else { Outcome::Unreachable };
-        let cells = if reached { straight::fewest_turns(self, from, facing) } else { vec![from] };
-        Route { lattice: self.lattice(), outcome, cells, cycle: Vec::new() }
     }
 }
 

@@ -18,7 +18,7 @@ pub use weighted::WeightedField;
 
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
-use crate::map::{Map, row_index};
+use crate::map::Map;
 
 /// For every cell, the time step at which the wave from the target reached it: its distance.
 ///
@@ -214,15 +214,9 @@ impl Field {
         }
     }
 
-    /// The number of the cell in row order, from 0; `None` outside the map.
-    #[inline]
-    pub(crate) fn index(&self, cell: Cell) -> Option<usize> {
-        row_index(cell, self.width, self.height)
-    }
-
-    /// How many cells the map has.
-    pub(crate) fn cells(&self) -> usize {
-        self.width as usize * self.height as usize
+    /// Columns and rows of the map.
+    pub(crate) const fn size(&self) -> (u32, u32) {
+        (self.width, self.height)
     }
 
     /// The directions that lead one step nearer to the target; none at a target and where the wave did not
