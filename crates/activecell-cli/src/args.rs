@@ -222,6 +222,7 @@ pub(crate) struct EmbedArgs {
 Examples:
   activecell table rule --lattice hex
   activecell table rule --format csv
+  activecell table control
   activecell table success --size 32 --pairs 400")]
 pub(crate) struct TableArgs {
     #[command(subcommand)]
@@ -238,6 +239,15 @@ pub(crate) enum TableKind {
         /// The form
         #[arg(long, value_enum, default_value_t)]
         format: TableFormat,
+    },
+    /// The control unit: its outputs, how it picks a motion, and all 6 × 256 entries
+    Control {
+        /// The form; csv and json list every entry, markdown shows them as grids
+        #[arg(long, value_enum, default_value_t)]
+        format: TableFormat,
+        /// Draw the states and what leads from one to another
+        #[arg(long, value_name = "FILE.svg")]
+        picture: Option<PathBuf>,
     },
     /// How many reachable targets each rule reaches on random maps, and at what length
     Success {

@@ -32,6 +32,7 @@
 
 mod animation;
 mod colour;
+mod control;
 mod figure;
 mod font;
 mod layout;
@@ -135,6 +136,15 @@ pub fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
 /// ```
 pub fn map_svg(map: &Map, title: &str) -> String {
     svg::write(&Figure::new(map, None, title, layout::STILL).still(None))
+}
+
+/// The states of the control unit and what leads from one to another, as an SVG document.
+///
+/// ```
+/// assert!(activecell_picture::control_svg().contains("boxed in"));
+/// ```
+pub fn control_svg() -> String {
+    svg::write(&control::scene())
 }
 
 /// The route as text for a terminal, at most `columns` wide and `rows` high; lines end in LF.

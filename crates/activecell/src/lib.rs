@@ -29,6 +29,7 @@
 //!
 //! The core does no I/O, has no dependencies, and gives the same result on every run.
 
+pub mod control;
 mod embedded;
 mod error;
 mod lattice;

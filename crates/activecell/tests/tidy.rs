@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 10] =
-    ["rng", "lattice", "error", "map", "rule", "wave", "search", "route", "embedded", "program"];
+const LAYERS: [&str; 11] =
+    ["rng", "lattice", "error", "map", "rule", "wave", "search", "route", "embedded", "program", "control"];
 const MAX_LINES: usize = 600;
 
 fn root() -> PathBuf {

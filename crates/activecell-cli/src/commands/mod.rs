@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod control;
 mod convert;
 mod embed;
 mod info;
@@ -32,6 +33,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
         Command::Embed(args) => embed::run(&args, terminal)?,
         Command::Table(args) => match args.table {
             TableKind::Rule { lattice, format } => Terminal::result(&table::rule(lattice.into(), format)?)?,
+            TableKind::Control { format, picture } => control::run(format, picture.as_deref())?,
             TableKind::Success { size, pairs, seed, format } => {
                 success::run(&success::Experiment { size, pairs, seed }, format, terminal)?;
             }
