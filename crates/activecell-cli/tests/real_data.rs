@@ -115,6 +115,59 @@ fn every_scenario_row_is_routed_as_short_as_a_plain_search_says() {
     assert!(rows > 0);
 }
 
+/// Steps to `target` from every cell, by a plain queue over neighbours: the naive twin on both lattices.
+fn plain_field(map: &Map, target: Cell) -> Vec<Option<u32>> {
+    let mut steps = vec![None; map.cells()];
+    let mut queue = vec![target];
+    steps[map.index(target).unwrap()] = Some(0);
+    let mut head = 0;
+    while let Some(&cell) = queue.get(head) {
+        head += 1;
+        let next = steps[map.index(cell).unwrap()].map(|steps| steps + 1);
+        for dir in map.lattice().dirs() {
+            let other = map.lattice().neighbour(cell, dir);
+            if map.is_free(other) && steps[map.index(other).unwrap()].is_none() {
+                steps[map.index(other).unwrap()] = next;
+                queue.push(other);
+            }
+        }
+    }
+    steps
+}
+
+#[test]
+fn fields_of_every_real_map_are_those_of_a_plain_queue() {
+    let mut paths = vec![project().join("maps/office.yaml")];
+    for (folder, endings) in [("movingai", [".map", ".none"]), ("ros", [".yaml", ".png"])] {
+        let Some(folder) = data(folder) else { continue };
+        paths.extend(endings.iter().flat_map(|ending| files(&folder, ending)));
+    }
+    let mut fields = 0;
+    for path in &paths {
+        let image = read(path);
+        for lattice in Lattice::ALL {
+            let map = image.clone().on(lattice);
+            let free: Vec<Cell> = map.free().collect();
+            let mut rng = Rng::new(free.len() as u64);
+            for _ in 0..2 {
+                let target = free[rng.below(free.len() as u32) as usize];
+                let truth = plain_field(&map, target);
+                let (field, compact) = (map.wave(target).unwrap(), map.compact_wave(&[target]).unwrap());
+                let reached = map.reachable(&[target]).unwrap();
+                for &cell in &free {
+                    let place = format!("{} {lattice} {cell} to {target}", path.display());
+                    let steps = truth[map.index(cell).unwrap()];
+                    assert_eq!(field.steps(cell), steps, "{place}");
+                    assert_eq!(reached.get(cell.x as u32, cell.y as u32), steps.is_some(), "{place}");
+                    assert!(compact.nearer(cell).eq(field.nearer(cell)), "{place}");
+                }
+                fields += 1;
+            }
+        }
+    }
+    println!("{} real maps, {fields} fields on both lattices: as a plain queue has them", paths.len());
+}
+
 /// How near the robot's centre comes to something occupied on its way from `a` to `b`, looking no farther than
 /// `reach_m`: points along the way, against the squares of the pixels, in the floor's metres.
 fn nearest_m(image: &Map, a: [f64; 2], b: [f64; 2], reach_m: f64) -> f64 {
