@@ -135,7 +135,7 @@ impl Map {
     }
 
     /// How many runs of free cells, along rows and columns, the map has for each free cell.
-    fn clutter(&self) -> f64 {
+    pub(crate) fn clutter(&self) -> f64 {
         let plane = self.obstacles();
         let walls = vec![!0; plane.row(0).len()];
         let (mut ends, mut free) = (0, 0);
