@@ -3,7 +3,7 @@
 use super::Done;
 use crate::args::ScenArgs;
 use crate::terminal::Terminal;
-use activecell::{Error, Lattice, Map, Outcome, Rule, Search, check_route};
+use activecell::{Cell, Error, Lattice, Map, Outcome, Route, Rule, Search, check_route};
 use activecell_formats::files::{self, ReadOptions};
 use activecell_formats::movingai::{self, Task};
 use anyhow::Context;
@@ -81,6 +81,12 @@ fn fits(task: &Task, map: &Map) -> anyhow::Result<()> {
     Ok(())
 }
 
+/// An answer, in the form of the one that gave it.
+enum Found {
+    Path(Option<Vec<Cell>>),
+    Route(Route),
+}
+
 /// One row. A task that cannot be set, or takes too long, is a row too: the others are still worth their answer.
 fn solve(
     map: &Map,
@@ -91,21 +97,20 @@ fn solve(
 ) -> anyhow::Result<Row> {
     let started = Instant::now();
     let found = match search {
-        Some(search) => search.path(task.from, task.to).map(|path| match path {
-            Some(cells) => (Outcome::Arrived, cells),
-            None => (Outcome::Unreachable, vec![task.from]),
-        }),
-        None => map
-            .route(rule, task.from, task.to, max_steps)
-            .map(|route| (route.outcome(), route.cells().to_vec())),
+        Some(search) => search.path(task.from, task.to).map(Found::Path),
+        None => map.route(rule, task.from, task.to, max_steps).map(Found::Route),
     };
     let us = started.elapsed().as_secs_f64() * 1e6;
     let (outcome, steps) = match found {
-        Ok((outcome, cells)) => {
-            let end = if outcome == Outcome::Arrived { Some(&task.to) } else { cells.last() };
-            check_route(map, &cells, task.from, *end.unwrap_or(&task.from))?;
-            (outcome.name(), cells.len() - 1)
+        Ok(Found::Route(route)) => {
+            route.check(map, task.from, task.to)?;
+            (route.outcome().name(), route.steps())
         }
+        Ok(Found::Path(Some(cells))) => {
+            check_route(map, &cells, task.from, task.to)?;
+            (Outcome::Arrived.name(), cells.len() - 1)
+        }
+        Ok(Found::Path(None)) => (Outcome::Unreachable.name(), 0),
         Err(Error::StartOccupied { .. }) => ("start_occupied", 0),
         Err(Error::TargetOccupied { .. }) => ("target_occupied", 0),
         Err(Error::OutsideMap { .. }) => ("outside_map", 0),

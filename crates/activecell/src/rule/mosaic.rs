@@ -154,8 +154,7 @@ impl Mosaic {
             let permitted =
                 order.iter().map(|candidate| candidate.dir).find(|&dir| self.shown(cell, dir).permit);
             let retreat = || {
-                let first = order.first()?.dir;
-                let mut clockwise = self.lattice.dirs().map(|dir| self.lattice.turned(first, dir.0.into()));
+                let mut clockwise = Sector::towards(self.lattice, cell, self.target)?.clockwise(self.lattice);
                 clockwise.find(|&dir| !self.neighbour(cell, dir).obstacle)
             };
             if let Some(dir) = permitted.or_else(retreat) {

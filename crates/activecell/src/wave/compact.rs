@@ -104,10 +104,7 @@ pub(super) fn check_targets(map: &Map, targets: &[Cell]) -> Result<(), Error> {
         return Err(Error::BadValue { name: "the number of targets", value: 0.0, allowed: "at least 1" });
     }
     for &target in targets {
-        map.check_task(target, target).map_err(|error| match error {
-            Error::StartOccupied { cell, nearest } => Error::TargetOccupied { cell, nearest },
-            other => other,
-        })?;
+        map.check_target(target)?;
     }
     Ok(())
 }

@@ -42,10 +42,7 @@ impl Terrain {
     /// ```
     pub fn wave(&self, target: Cell) -> Result<WeightedField, Error> {
         let map = self.map();
-        map.check_task(target, target).map_err(|error| match error {
-            Error::StartOccupied { cell, nearest } => Error::TargetOccupied { cell, nearest },
-            other => other,
-        })?;
+        map.check_target(target)?;
         let mut field = WeightedField { terrain: self.clone(), target, values: self.padded().blank(map) };
         match (map.lattice(), self.exits().is_empty()) {
             (Lattice::Square, true) => field.spread::<4, false>(),
