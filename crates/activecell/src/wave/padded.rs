@@ -61,11 +61,12 @@ impl Padded {
     pub(super) fn blank(&self, map: &Map) -> Vec<u32> {
         let mut values = vec![OBSTACLE; self.len()];
         for y in 0..self.height {
-            let row = map.obstacles().row(y);
             let begin = (y as usize + 1) * self.stride + 1;
-            for (x, value) in values[begin..begin + self.width as usize].iter_mut().enumerate() {
-                let blocked = row[x / 64] >> (x % 64) & 1 == 1;
-                *value = if blocked { OBSTACLE } else { NEVER };
+            let row = values[begin..begin + self.width as usize].chunks_mut(64);
+            for (word, cells) in map.obstacles().row(y).iter().zip(row) {
+                for (i, value) in cells.iter_mut().enumerate() {
+                    *value = if word >> i & 1 == 1 { OBSTACLE } else { NEVER };
+                }
             }
         }
         values
