@@ -8,9 +8,10 @@
 //! The A* of Hart, Nilsson, Raphael (*A Formal Basis for the Heuristic Determination of Minimum Cost Paths*, 1968);
 //! detour numbers are Hadlock's (*A shortest path algorithm for grid graphs*, Networks 7, 1977).
 
-use super::tiles::{EAST, Grid, List, WEST};
+use super::tiles::{Grid, List};
 use crate::lattice::Cell;
 use crate::map::Map;
+use crate::wave::{EAST, WEST, each_free};
 
 /// 64 cells of the search.
 #[derive(Debug, Clone, Copy, Default)]
@@ -135,7 +136,7 @@ impl Detours {
     pub(super) fn new(map: &Map) -> Self {
         let grid = Grid::new(map);
         let mut tiles = vec![Tile::default(); grid.len];
-        grid.each_free(map, |tile, free| tiles[tile].free = free);
+        each_free(map, |tile, free| tiles[tile].free = free);
         Self { grid, tiles, now: List::new(grid), next: List::new(grid), touched: List::new(grid) }
     }
 

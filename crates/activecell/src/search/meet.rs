@@ -3,9 +3,10 @@
 //! A flooded cell keeps its distance modulo 3: neighbours differ by one at most, so three labels are enough to find
 //! the way back (Akers, *A Modification of Lee's Path Connection Algorithm*, 1967).
 
-use super::tiles::{EAST, Grid, List, WEST};
+use super::tiles::{Grid, List};
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
+use crate::wave::{EAST, WEST, each_free};
 
 /// The even rows of a tile.
 const EVEN: u64 = 0x00ff_00ff_00ff_00ff;
@@ -65,7 +66,7 @@ impl Floods {
     pub(super) fn new(map: &Map) -> Self {
         let grid = Grid::new(map);
         let mut tiles = vec![Tile::default(); grid.len];
-        grid.each_free(map, |tile, free| tiles[tile].free = free);
+        each_free(map, |tile, free| tiles[tile].free = free);
         let list = || List::new(grid);
         Self {
             lattice: map.lattice(),

@@ -1,14 +1,9 @@
 //! Tiles: 8 × 8 cells in a word, bit `8 · (y % 8) + x % 8`, with one empty tile around the map.
 
-use super::planes::free_word;
 use crate::lattice::Cell;
 use crate::map::Map;
 
-/// The cells of column 0 and of column 7 of a tile.
-pub(super) const WEST: u64 = 0x0101_0101_0101_0101;
-pub(super) const EAST: u64 = WEST << 7;
-
-/// How tiles are numbered.
+/// How tiles are numbered, as [`crate::wave::each_free`] does.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Grid {
     /// Tiles from one row of tiles to the next.
@@ -28,25 +23,6 @@ impl Grid {
     pub(super) fn locate(self, cell: Cell) -> (usize, u32) {
         let (x, y) = ((cell.x + 8) as usize, (cell.y + 8) as usize);
         (y / 8 * self.stride + x / 8, (y % 8 * 8 + x % 8) as u32)
-    }
-
-    /// Calls `put` with each tile's number and its free cells.
-    pub(super) fn each_free(self, map: &Map, mut put: impl FnMut(usize, u64)) {
-        let (width, height) = (map.width() as usize, map.height());
-        for top in (0..height).step_by(8) {
-            for word in 0..width.div_ceil(64) {
-                let mut lines = [0u64; 8];
-                for (line, y) in lines.iter_mut().zip(top..height) {
-                    *line = free_word(map.obstacles(), y, word);
-                }
-                let tiles = (width - word * 64).min(64).div_ceil(8);
-                let first = (top as usize / 8 + 1) * self.stride + word * 8 + 1;
-                for tile in 0..tiles {
-                    let bits = lines.iter().rev().fold(0, |bits, line| bits << 8 | line >> (8 * tile) & 0xff);
-                    put(first + tile, bits);
-                }
-            }
-        }
     }
 }
 

@@ -14,6 +14,7 @@ mod weighted;
 pub use compact::CompactField;
 pub use live::LiveField;
 pub use terrain::Terrain;
+pub(crate) use tiles::{EAST, WEST, each_free};
 pub use weighted::WeightedField;
 
 use crate::error::Error;

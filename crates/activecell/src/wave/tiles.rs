@@ -13,9 +13,9 @@ use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
 
 /// Column 0 of a tile; bit `8 · row + column` is a cell.
-const WEST: u64 = 0x0101_0101_0101_0101;
+pub(crate) const WEST: u64 = 0x0101_0101_0101_0101;
 /// Column 7.
-const EAST: u64 = WEST << 7;
+pub(crate) const EAST: u64 = WEST << 7;
 /// The even rows; the rows of a tile have the parity of the map's rows.
 const EVEN: u64 = 0x00ff_00ff_00ff_00ff;
 
@@ -57,22 +57,7 @@ impl Tiles {
         let across = width.div_ceil(8) + 2;
         let words = vec![Tile::default(); across * (height.div_ceil(8) + 2)];
         let mut grid = Self { lattice: map.lattice(), width, height, across, words };
-        let last = u64::MAX >> ((64 - width % 64) % 64);
-        for top in (0..height).step_by(8) {
-            for word in 0..width.div_ceil(64) {
-                let inside = if (word + 1) * 64 > width { last } else { u64::MAX };
-                let mut square = [0; 8];
-                for (y, row) in (top..height).zip(&mut square) {
-                    *row = !map.obstacles().row(y as u32)[word] & inside;
-                }
-                transpose(&mut square);
-                let first = grid.tile(word * 64, top);
-                let count = (across - 1).saturating_sub(1 + word * 8).min(8);
-                for (tile, open) in grid.words[first..first + count].iter_mut().zip(square) {
-                    tile.open = open;
-                }
-            }
-        }
+        each_free(map, |tile, open| grid.words[tile].open = open);
         grid
     }
 
@@ -129,6 +114,29 @@ impl Tiles {
             }
             for (y, row) in (top..self.height.min(top + 8)).zip(buffer.chunks_exact(words)) {
                 sink(y, row);
+            }
+        }
+    }
+}
+
+/// Calls `put` with the number of each tile of the map and its free cells. Tiles are numbered row by row, with a rim of
+/// one tile around the map.
+pub(crate) fn each_free(map: &Map, mut put: impl FnMut(usize, u64)) {
+    let (width, height) = (map.width() as usize, map.height() as usize);
+    let across = width.div_ceil(8) + 2;
+    let last = u64::MAX >> ((64 - width % 64) % 64);
+    for top in (0..height).step_by(8) {
+        for word in 0..width.div_ceil(64) {
+            let inside = if (word + 1) * 64 > width { last } else { u64::MAX };
+            let mut square = [0; 8];
+            for (y, row) in (top..height).zip(&mut square) {
+                *row = !map.obstacles().row(y as u32)[word] & inside;
+            }
+            transpose(&mut square);
+            let first = (top / 8 + 1) * across + word * 8 + 1;
+            let count = (across - 1).saturating_sub(1 + word * 8).min(8);
+            for (tile, open) in (first..first + count).zip(square) {
+                put(tile, open);
             }
         }
     }
