@@ -182,8 +182,11 @@ fn text(solved: &Solved) -> String {
     text
 }
 
+fn plural(count: usize, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
+
 fn summary(report: &RouteReport) -> String {
-    let plural = |count: usize, noun: &str| format!("{count} {noun}{}", if count == 1 { "" } else { "s" });
     format!(
         "{}: {}, {}, {:.2} m, {:.3} wheel revolutions",
         report.outcome,
@@ -202,9 +205,8 @@ fn title(args: &RouteArgs, solved: &Solved) -> String {
     };
     let cell_m = solved.map.frame().cell_m;
     let RouteReport { rule, outcome, steps, turns, length_m, .. } = &solved.report;
-    format!(
-        "{name} · {lattice} of {cell_m} m · {rule}: {outcome}, {steps} steps, {turns} turns, {length_m:.1} m"
-    )
+    let (steps, turns) = (plural(*steps, "step"), plural(*turns, "turn"));
+    format!("{name} · {lattice} of {cell_m} m · {rule}: {outcome}, {steps}, {turns}, {length_m:.1} m")
 }
 
 impl Solved {

@@ -9,7 +9,6 @@
 //! cost the same here, so that plain queues in order of distance replace their heaps.
 
 use super::padded::{NEVER, OBSTACLE, Padded};
-use super::queue::{self, Rows};
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::Map;
@@ -67,8 +66,8 @@ impl LiveField {
     /// # Errors
     /// [`Error::OutsideMap`] or [`Error::TargetOccupied`].
     pub fn new(map: &Map, target: Cell) -> Result<Self, Error> {
-        map.check_target(target)?;
-        let Rows { padded, values } = queue::flood(map, &[target]);
+        let padded = Padded::new(map);
+        let values = flooded(map, &padded, target)?;
         Ok(Self { map: map.clone(), target, padded, values, work: Work::default() })
     }
 
@@ -250,11 +249,24 @@ impl LiveField {
         for &(place, before) in &self.work.touched {
             self.values[place as usize] = before;
         }
-        let values = queue::flood(&self.map, &[self.target]).values;
+        let values =
+            flooded(&self.map, &self.padded, self.target).unwrap_or_else(|_| self.padded.blank(&self.map));
         let distance = |value: u32| if value == OBSTACLE { NEVER } else { value };
         let pairs = self.values.iter().zip(&values);
         let changed = pairs.filter(|&(&before, &now)| distance(before) != distance(now)).count();
         self.values = values;
         changed
     }
+}
+
+/// The values of a fresh flood.
+fn flooded(map: &Map, padded: &Padded, target: Cell) -> Result<Vec<u32>, Error> {
+    let field = map.wave(target)?;
+    let mut values = padded.blank(map);
+    for cell in map.free() {
+        if let (Some(place), Some(steps)) = (padded.place(cell), field.steps(cell)) {
+            values[place] = steps + 1;
+        }
+    }
+    Ok(values)
 }

@@ -211,7 +211,7 @@ impl Field {
         }
         match &self.steps {
             Steps::Tiles(tiles) => tiles.steps(x, y),
-            Steps::Rows(rows) => rows.steps(cell),
+            Steps::Rows(rows) => rows.steps(x, y),
         }
     }
 
@@ -241,8 +241,7 @@ mod tests {
         let Some(tiles) = sweep::flood(map, targets) else { return };
         for y in 0..map.height() {
             for x in 0..map.width() {
-                let cell = Cell::new(x as i32, y as i32);
-                assert_eq!(tiles.steps(x, y), rows.steps(cell), "{cell} of {}", map.to_text());
+                assert_eq!(tiles.steps(x, y), rows.steps(x, y), "({x},{y}) of {}", map.to_text());
             }
         }
     }

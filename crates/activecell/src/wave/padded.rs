@@ -65,7 +65,8 @@ impl Padded {
             let row = values[begin..begin + self.width as usize].chunks_mut(64);
             for (word, cells) in map.obstacles().row(y).iter().zip(row) {
                 for (i, value) in cells.iter_mut().enumerate() {
-                    *value = if word >> i & 1 == 1 { OBSTACLE } else { NEVER };
+                    // One more than NEVER is OBSTACLE.
+                    *value = NEVER.wrapping_add((word >> i & 1) as u32);
                 }
             }
         }
