@@ -8,13 +8,16 @@ use toml::de::{DeTable, DeValue};
 /// Where a key's value goes.
 enum Slot {
     Number(fn(&mut Robot) -> &mut f64),
+    Count(fn(&mut Robot) -> &mut u32),
     Flag(fn(&mut Robot) -> &mut bool),
     Drive,
 }
 
 /// Every key of a robot file, with its section.
-const KEYS: [(&str, Slot); 17] = [
+const KEYS: [(&str, Slot); 31] = [
     ("wheel_perimeter_m", Slot::Number(|robot| &mut robot.wheel_perimeter_m)),
+    ("wheel_difference_rel", Slot::Number(|robot| &mut robot.wheel_difference_rel)),
+    ("ticks_per_rev", Slot::Number(|robot| &mut robot.ticks_per_rev)),
     ("track_m", Slot::Number(|robot| &mut robot.track_m)),
     ("radius_m", Slot::Number(|robot| &mut robot.radius_m)),
     ("drive", Slot::Drive),
@@ -22,7 +25,17 @@ const KEYS: [(&str, Slot); 17] = [
     ("max_speed_mps", Slot::Number(|robot| &mut robot.max_speed_mps)),
     ("max_accel_mps2", Slot::Number(|robot| &mut robot.max_accel_mps2)),
     ("turn_rate_radps", Slot::Number(|robot| &mut robot.turn_rate_radps)),
+    ("power.mass_kg", Slot::Number(|robot| &mut robot.power.mass_kg)),
+    ("power.rolling_resistance", Slot::Number(|robot| &mut robot.power.rolling_resistance)),
+    ("power.idle_w", Slot::Number(|robot| &mut robot.power.idle_w)),
+    ("power.drive_efficiency", Slot::Number(|robot| &mut robot.power.drive_efficiency)),
+    ("slopes.up_max_deg", Slot::Number(|robot| &mut robot.slopes.up_max_deg)),
+    ("slopes.down_max_deg", Slot::Number(|robot| &mut robot.slopes.down_max_deg)),
+    ("slopes.across_max_deg", Slot::Number(|robot| &mut robot.slopes.across_max_deg)),
+    ("slopes.climb_cost_m_per_m", Slot::Number(|robot| &mut robot.slopes.climb_cost_m_per_m)),
     ("errors.wheel_perimeter_rel", Slot::Number(|robot| &mut robot.errors.wheel_perimeter_rel)),
+    ("errors.wheel_difference_rel", Slot::Number(|robot| &mut robot.errors.wheel_difference_rel)),
+    ("errors.track_rel", Slot::Number(|robot| &mut robot.errors.track_rel)),
     ("errors.unevenness_m_per_sqrt_m", Slot::Number(|robot| &mut robot.errors.unevenness_m_per_sqrt_m)),
     ("errors.cell_division_m", Slot::Number(|robot| &mut robot.errors.cell_division_m)),
     ("errors.stop_inertia_m", Slot::Number(|robot| &mut robot.errors.stop_inertia_m)),
@@ -31,6 +44,8 @@ const KEYS: [(&str, Slot); 17] = [
     ("errors.start_rad", Slot::Number(|robot| &mut robot.errors.start_rad)),
     ("sensors.range_m", Slot::Number(|robot| &mut robot.sensors.range_m)),
     ("sensors.noise_m", Slot::Number(|robot| &mut robot.sensors.noise_m)),
+    ("sensors.beams", Slot::Count(|robot| &mut robot.sensors.beams)),
+    ("sensors.false_rate", Slot::Number(|robot| &mut robot.sensors.false_rate)),
 ];
 
 /// Reads a robot file; keys that it does not name keep their defaults ([`Robot::default`]).
@@ -65,6 +80,7 @@ pub(crate) fn to_json(robot: &Robot) -> serde_json::Value {
     for (key, slot) in &KEYS {
         let value: serde_json::Value = match slot {
             Slot::Number(field) => (*field(&mut copy)).into(),
+            Slot::Count(field) => (*field(&mut copy)).into(),
             Slot::Flag(field) => (*field(&mut copy)).into(),
             Slot::Drive => copy.drive.name().into(),
         };
@@ -118,12 +134,17 @@ fn set(slot: &Slot, value: &DeValue<'_>, robot: &mut Robot) -> Result<(), &'stat
                 radix => i64::from_str_radix(number.as_str(), radix).map_err(|_| "a number")? as f64,
             };
         }
+        (Slot::Count(field), DeValue::Integer(number)) => {
+            let count = u32::from_str_radix(number.as_str(), number.radix());
+            *field(robot) = count.map_err(|_| "a whole number")?;
+        }
         (Slot::Flag(field), DeValue::Boolean(flag)) => *field(robot) = *flag,
         (Slot::Drive, DeValue::String(name)) => {
             let known = [Drive::Steered, Drive::Differential].into_iter().find(|drive| drive.name() == name);
             robot.drive = known.ok_or("\"steered\" or \"differential\"")?;
         }
         (Slot::Number(_), _) => return Err("a number"),
+        (Slot::Count(_), _) => return Err("a whole number"),
         (Slot::Flag(_), _) => return Err("true or false"),
         (Slot::Drive, _) => return Err("\"steered\" or \"differential\""),
     }
@@ -166,7 +187,8 @@ mod tests {
         let mut robots = Vec::new();
         for (key, slot) in &KEYS {
             let value = match slot {
-                Slot::Number(_) => "7",
+                Slot::Number(_) if *key != "ticks_per_rev" => "0.25",
+                Slot::Number(_) | Slot::Count(_) => "7",
                 Slot::Flag(_) => "false",
                 Slot::Drive => "\"steered\"",
             };

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::robot::to_json;
-use activecell::{Cell, Dir, Map, Outcome, Program, Robot, Route, Rule};
+use activecell::{Cell, Dir, Effort, Map, Outcome, Program, Robot, Route, Rule};
 use serde::Serialize;
 
 /// The version of the run files that are written.
@@ -29,6 +29,10 @@ pub struct RouteReport {
     pub revolutions: f64,
     /// The revolutions that each wheel makes in turns; 0 if the wheels are steered.
     pub turn_revolutions: f64,
+    /// How long driving the program takes, in seconds; 0 unless the robot arrived.
+    pub drive_s: f64,
+    /// The energy that driving it takes, in joules; 0 unless the robot arrived.
+    pub energy_j: f64,
     /// The active cells, the start first, as [x, y].
     pub cells: Vec<[i32; 2]>,
     /// The cells in which a trapped robot circles; else empty.
@@ -59,6 +63,10 @@ pub struct WaypointReport {
     pub revolutions: f64,
     /// The revolutions that each wheel makes in the turn.
     pub turn_revolutions: f64,
+    /// The encoder ticks of the run, left and right wheel.
+    pub run_ticks: [i64; 2],
+    /// The encoder ticks of the turn, left and right wheel.
+    pub turn_ticks: [i64; 2],
 }
 
 /// Computing times.
@@ -71,24 +79,29 @@ pub struct Seconds {
 }
 
 impl RouteReport {
-    /// The report of a route over cells of `cell_m` metres and of the program that drives it.
+    /// The report of a route over the floor of `map` and of the program that drives it.
     pub fn new(
         rule: Rule,
         route: &Route,
         program: &Program,
         robot: &Robot,
-        cell_m: f64,
+        map: &Map,
         seconds: Seconds,
     ) -> Self {
         let lattice = route.lattice();
         let pair = |cell: &Cell| [cell.x, cell.y];
-        let length_m = route.steps() as f64 * cell_m;
-        let waypoints = program.waypoints.iter().map(|waypoint| WaypointReport {
+        let length_m = route.steps() as f64 * map.frame().cell_m;
+        let arrived = route.outcome() == Outcome::Arrived;
+        let effort = if arrived { program.effort(robot) } else { Effort::default() };
+        let ticks = program.ticks(robot);
+        let waypoints = program.waypoints.iter().zip(ticks).map(|(waypoint, ticks)| WaypointReport {
             x: waypoint.cell.x,
             y: waypoint.cell.y,
             turn_deg: waypoint.turn_deg,
             revolutions: waypoint.revolutions,
             turn_revolutions: waypoint.turn_revolutions,
+            run_ticks: ticks.run,
+            turn_ticks: ticks.turn,
         });
         let waypoints: Vec<WaypointReport> = waypoints.collect();
         Self {
@@ -100,10 +113,12 @@ impl RouteReport {
             length_m,
             revolutions: robot.revolutions(length_m),
             turn_revolutions: waypoints.iter().map(|waypoint| waypoint.turn_revolutions).sum(),
+            drive_s: effort.time_s,
+            energy_j: effort.energy_j,
             cells: route.cells().iter().map(pair).collect(),
             cycle: route.cycle().iter().map(pair).collect(),
             heading: program.heading.map(|dir: Dir| lattice.dir_name(dir)),
-            program: if route.outcome() == Outcome::Arrived { waypoints } else { Vec::new() },
+            program: if arrived { waypoints } else { Vec::new() },
             clearance_m: None,
             certificate: None,
             seconds,

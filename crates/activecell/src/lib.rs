@@ -21,7 +21,7 @@
 //! assert!(check_route(&map, route.cells(), from, to).is_ok());
 //!
 //! let robot = Robot { wheel_perimeter_m: 0.5, ..Robot::default() };
-//! let program = route.program(&robot, map.frame().cell_m, None);
+//! let program = route.program(&robot, &map, None);
 //! assert_eq!(program.revolutions(), 10.0);
 //! assert!(check_program(&map, &robot, &program, route.cells()).is_ok());
 //! # Ok::<(), activecell::Error>(())
@@ -45,7 +45,10 @@ pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{BitPlane, Clearance, Frame, MAX_CELLS, Map, PointM, Tiling};
-pub use program::{Drive, Errors, Program, ProgramFault, Robot, Sensors, Waypoint, check_program, replay};
+pub use program::{
+    Drive, Effort, Errors, Motion, Pose, Power, Program, ProgramFault, Robot, Sensors, Slopes, Ticks,
+    Waypoint, Wheels, check_program, replay,
+};
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route, check_terrain_route};
 pub use rule::Rule;

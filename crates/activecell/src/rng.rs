@@ -39,4 +39,27 @@ impl Rng {
     pub fn chance(&mut self, probability: f64) -> bool {
         ((self.next_u64() >> 11) as f64) < probability * (1u64 << 53) as f64
     }
+
+    /// A number of the normal distribution with mean 0 and standard deviation 1 (Marsaglia and Bray, *A Convenient
+    /// Method for Generating Normal Variables*, 1964; of its pair the first).
+    ///
+    /// ```
+    /// let mut rng = activecell::Rng::new(1);
+    /// let mean = (0..10_000).map(|_| rng.normal()).sum::<f64>() / 10_000.0;
+    /// assert!(mean.abs() < 0.05);
+    /// ```
+    pub fn normal(&mut self) -> f64 {
+        loop {
+            let (u, v) = (2.0 * self.unit() - 1.0, 2.0 * self.unit() - 1.0);
+            let square = u * u + v * v;
+            if square > 0.0 && square < 1.0 {
+                return u * (-2.0 * square.ln() / square).sqrt();
+            }
+        }
+    }
+
+    /// A number from 0 to 1, 1 excluded.
+    pub fn unit(&mut self) -> f64 {
+        (self.next_u64() >> 11) as f64 / (1u64 << 53) as f64
+    }
 }

@@ -174,7 +174,7 @@ fn a_robot_that_faces_somewhere_gets_a_program_with_the_fewest_turns() {
             let dirs: Vec<Dir> = std::iter::once(facing).chain(back).collect();
             let route = map.wave(to).unwrap().route_facing(from, &dirs);
             if route.outcome() == Outcome::Arrived && from != to {
-                let program = route.program(&robot, 1.0, Some(facing));
+                let program = route.program(&robot, &map, Some(facing));
                 let found = (route.steps() as u32, program.turns() as u32);
                 assert_eq!(Some(found), least_steps_and_turns(&map, from, to, &dirs), "{map:?} {from} {to}");
             }
@@ -200,7 +200,7 @@ fn programs_replayed_by_dead_reckoning_land_on_every_cell() {
                     let robot = Robot { drive, can_reverse, wheel_perimeter_m: 0.213, ..Robot::default() };
                     let lattice = map.lattice();
                     let heading = lattice.dirs().nth(i % 8); // also none
-                    let program = route.program(&robot, 0.35, heading);
+                    let program = route.program(&robot, &map, heading);
                     assert_eq!(check_program(&map, &robot, &program, route.cells()), Ok(()));
                     let last = program.waypoints.last().unwrap();
                     assert_eq!((last.cell, last.turn_deg), (*route.cells().last().unwrap(), 0));
@@ -221,7 +221,7 @@ fn a_wrong_program_is_found() {
     let map = Map::parse(Lattice::Square, "....\n....").unwrap();
     let route = map.route(Rule::Wave, Cell::new(0, 0), Cell::new(3, 1), LIMIT).unwrap();
     let robot = Robot::default();
-    let good = route.program(&robot, 1.0, None);
+    let good = route.program(&robot, &map, None);
     let check = |change: &dyn Fn(&mut activecell::Program)| {
         let mut program = good.clone();
         change(&mut program);

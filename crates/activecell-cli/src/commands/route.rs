@@ -21,6 +21,8 @@ struct Solved {
     map: Map,
     floor: Option<Map>,
     robot: Robot,
+    /// The robot is the user's own, not the default one.
+    own_robot: bool,
     from: Cell,
     to: Cell,
     field: Option<Flooded>,
@@ -98,7 +100,7 @@ pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done>
 fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let given = args.robot.as_deref().map(load::robot).transpose()?;
     let Loaded { map, floor, .. } = load::map(&args.map, given.as_ref(), terminal)?;
-    let robot = given.unwrap_or_default();
+    let (own_robot, robot) = (given.is_some(), given.unwrap_or_default());
     let facing = args.heading.as_deref().map(|name| heading(map.lattice(), name)).transpose()?;
     let (from, wanted_to) = (args.from.on(&map)?, args.to.on(&map)?);
     let to = if args.nearest { map.nearest_reachable(from, wanted_to)? } else { wanted_to };
@@ -125,13 +127,12 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let field_seconds = if field.is_some() { flooded.as_secs_f64() } else { 0.0 };
     let seconds = Seconds { field: field_seconds, route: all.as_secs_f64() - field_seconds };
 
-    let cell_m = map.frame().cell_m;
-    let program = route.program(&robot, cell_m, facing);
+    let program = route.program(&robot, &map, facing);
     route.check(&map, from, to)?;
     check_program(&map, &robot, &program, route.cells())?;
-    let mut report = RouteReport::new(rule, &route, &program, &robot, cell_m, seconds);
+    let mut report = RouteReport::new(rule, &route, &program, &robot, &map, seconds);
     report.clearance_m = args.clearance.and_then(|_| map.clearance_m(route.cells()));
-    Ok(Solved { map, floor, robot, from, to, field, route, program, report })
+    Ok(Solved { map, floor, robot, own_robot, from, to, field, route, program, report })
 }
 
 /// The result for people.
@@ -161,6 +162,9 @@ fn text(solved: &Solved) -> String {
     }
     if let Some(clearance_m) = report.clearance_m {
         text += &format!("clearance: {clearance_m:.2} m\n");
+    }
+    if solved.own_robot {
+        text += &format!("driving takes about {:.0} s and {:.0} J\n", report.drive_s, report.energy_j);
     }
     if let Some(heading) = report.heading {
         text += &format!("\nstart at {}, facing {heading}\n", solved.from);

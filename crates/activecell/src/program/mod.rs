@@ -1,12 +1,17 @@
 //! The program M: a route as straight runs, counted in wheel revolutions, and turns.
 
+mod drive;
+mod motion;
 mod replay;
 mod robot;
 
+pub use drive::{Effort, Ticks};
+pub use motion::{Motion, Pose, Wheels};
 pub use replay::{ProgramFault, check_program, replay};
-pub use robot::{Drive, Errors, Robot, Sensors};
+pub use robot::{Drive, Errors, Power, Robot, Sensors, Slopes};
 
 use crate::lattice::{Cell, Dir};
+use crate::map::Map;
 use crate::route::Route;
 
 /// One entry (X, Y, Z, L) of the paper's M: drive L revolutions to the cell (X, Y), there turn by Z.
@@ -48,7 +53,7 @@ impl Program {
 }
 
 impl Route {
-    /// The program that drives `robot` along this route over cells of `cell_m` metres.
+    /// The program that drives `robot` along this route over the floor of `map`.
     ///
     /// `heading` is where the robot faces at first; `None`: along its first run. If a turn is needed before the
     /// first run, the first waypoint is the start itself, with 0 revolutions. A run straight back is driven in
@@ -59,12 +64,12 @@ impl Route {
     /// let map = Map::parse(Lattice::Square, "...F\n.###\n.###")?;
     /// let route = map.route(Rule::Wave, Cell::new(0, 2), Cell::new(3, 0), 100)?;
     /// let robot = Robot { wheel_perimeter_m: 0.8, ..Robot::default() };
-    /// let program = route.program(&robot, 1.0, Some(Dir::N));
+    /// let program = route.program(&robot, &map, Some(Dir::N));
     /// let m: Vec<_> = program.waypoints.iter().map(|w| (w.cell.x, w.cell.y, w.turn_deg, w.revolutions)).collect();
     /// assert_eq!(m, [(0, 0, 90, 2.5), (3, 0, 0, 3.75)]);
     /// # Ok::<(), activecell::Error>(())
     /// ```
-    pub fn program(&self, robot: &Robot, cell_m: f64, heading: Option<Dir>) -> Program {
+    pub fn program(&self, robot: &Robot, map: &Map, heading: Option<Dir>) -> Program {
         let lattice = self.lattice();
         let start = self.cells()[0];
         let mut runs: Vec<(Dir, usize)> = Vec::new();
@@ -89,7 +94,7 @@ impl Route {
                 facing = dir;
             }
             step += steps;
-            let run = robot.revolutions(steps as f64 * cell_m);
+            let run = robot.revolutions(steps as f64 * map.frame().cell_m);
             let revolutions = if back { -run } else { run };
             waypoints.push(Waypoint {
                 cell: self.cells()[step],

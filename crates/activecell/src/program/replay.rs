@@ -15,7 +15,7 @@ use std::fmt;
 /// let (from, to) = (Cell::new(0, 0), Cell::new(2, 2));
 /// let robot = Robot::default();
 /// let route = map.route(Rule::Wave, from, to, 100)?;
-/// let driven: Vec<Cell> = replay(&map, &robot, &route.program(&robot, 1.0, None)).into_iter()
+/// let driven: Vec<Cell> = replay(&map, &robot, &route.program(&robot, &map, None)).into_iter()
 ///     .map(|point| map.cell_at_m(point)).collect();
 /// assert_eq!(driven, route.cells());
 /// # Ok::<(), activecell::Error>(())
