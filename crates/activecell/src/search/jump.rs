@@ -9,6 +9,7 @@
 //! Horizontal-first jump point search: Baum, *Jump Point Search Pathfinding in 4-connected Grids*, 2025; jump points:
 //! Harabor, Grastien, *Online Graph Pruning for Pathfinding on Grid Maps*, AAAI 2011.
 
+use super::OutOfRoom;
 use super::planes::Planes;
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
@@ -37,10 +38,6 @@ struct Node {
     /// The next node of the same bucket.
     next: u32,
 }
-
-/// Why the search ended without an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct OutOfRoom;
 
 /// The search by jumps; square lattice only.
 #[derive(Debug, Clone)]
