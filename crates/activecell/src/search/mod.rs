@@ -41,9 +41,9 @@ const ONE_CELL_WAYS: f64 = 0.775;
 ///
 /// Preparing takes 0.2 ms for a million cells at most; in mazes of one-cell ways and dense clutter the first query adds
 /// up to 4 ms for a million cells, in which it closes the dead ends. A query touches what lies on its way; what it touched is
-/// cleaned before the next one, the rest of the map is left alone. Planes and rims together take
-/// at most one byte a cell (columns and rows counted in whole words of 64), 64 bytes for each 8 cells along the
-/// border, and 64 KiB.
+/// cleaned before the next one, the rest of the map is left alone. Planes and rims together take at
+/// most one byte a cell; maps of fewer than 512 × 512 cells may take 64 KiB more, and 64 bytes for each 8 cells
+/// along the border (columns and rows counted in whole words of 64).
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map, Search, check_route};
@@ -73,7 +73,7 @@ pub(crate) enum Method {
     Detour,
     /// Cell by cell with the dead ends closed; squares only.
     Ways,
-    /// Two floods that meet.
+    /// Two floods that meet; hexagons only.
     Meet,
 }
 
@@ -101,8 +101,12 @@ impl Search {
 
     /// Prepares a map for one method.
     pub(crate) fn by(map: &Map, method: Method) -> Self {
-        // Hexagons know one method.
-        let method = if map.lattice() == Lattice::Hex { Method::Meet } else { method };
+        // Hexagons know one method, and no other lattice knows it.
+        let method = match map.lattice() {
+            Lattice::Hex => Method::Meet,
+            Lattice::Square if method == Method::Meet => Method::of(map),
+            Lattice::Square => method,
+        };
         Self { map: map.clone(), method, engine: Engine::new(map, method), stands_in: false }
     }
 
@@ -182,8 +186,8 @@ impl Search {
 impl Engine {
     fn new(map: &Map, method: Method) -> Self {
         match method {
-            // Half a byte a cell for the planes, half a byte for the rim.
-            Method::Jump => Self::Jump(Box::new(Jumps::new(map, map.cells() / 2 + (1 << 16)))),
+            // One byte a cell in all, of which the planes take half; small maps get more.
+            Method::Jump => Self::Jump(Box::new(Jumps::new(map, map.cells(), 1 << 16))),
             Method::Detour => Self::Detour(Box::new(Detours::new(map))),
             // Five eighths for the planes, a quarter for the rims.
             Method::Ways => Self::Ways(Box::new(Ways::new(map, (map.cells() / 48).max(1 << 10)))),
