@@ -39,7 +39,7 @@ const ONE_CELL_WAYS: f64 = 0.775;
 
 /// A map prepared for shortest paths between two cells.
 ///
-/// Preparing takes 0.2 ms for a million cells at most; in mazes of one-cell ways and dense clutter the first query adds
+/// Preparing takes 0.1 to 0.3 ms for a million cells; in mazes of one-cell ways and dense clutter the first query adds
 /// up to 4 ms for a million cells, in which it closes the dead ends. A query touches what lies on its way; what it touched is
 /// cleaned before the next one, the rest of the map is left alone. Planes and rims together take at
 /// most one byte a cell; maps of fewer than 512 × 512 cells may take 64 KiB more, and 64 bytes for each 8 cells
