@@ -9,6 +9,7 @@
 //! Horizontal-first jump point search: Baum, *Jump Point Search Pathfinding in 4-connected Grids*, 2025; jump points:
 //! Harabor, Grastien, *Online Graph Pruning for Pathfinding on Grid Maps*, AAAI 2011.
 
+use super::OutOfRoom;
 use super::planes::Planes;
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
@@ -30,17 +31,11 @@ const NORTH: u32 = 3;
 struct Node {
     /// The cell, packed; in the two highest bits the direction in which it was reached.
     key: u32,
-    /// Steps from the start · 16 + the direction, a bit each.
-    cost: u32,
     /// The node from which it was reached, along a row and then along a column.
     parent: u32,
     /// The next node of the same bucket.
     next: u32,
 }
-
-/// Why the search ended without an answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct OutOfRoom;
 
 /// The search by jumps; square lattice only.
 #[derive(Debug, Clone)]
@@ -52,7 +47,8 @@ pub(super) struct Jumps {
     nodes: Vec<Node>,
     /// The most nodes there is room for.
     most: usize,
-    /// The least cost of each cell, by open addressing: packed cell + 1 above, cost below. Only the first `places`
+    /// The least cost of each cell, by open addressing: packed cell + 1 above; below steps from the start · 16 and
+    /// the directions in which the cell was reached with them, a bit each. Only the first `places`
     /// are in use, a power of two that grows so that half of
     /// them stay free while there is room.
     table: Vec<u64>,
@@ -86,12 +82,15 @@ struct Query {
 }
 
 impl Jumps {
-    /// Prepares the map; nodes and their table take at most `room` bytes.
-    pub(super) fn new(map: &Map, room: usize) -> Self {
+    /// Prepares the map. Planes, nodes and their table take at most `bytes`; nodes and table may take `least`, whatever
+    /// the planes leave over.
+    pub(super) fn new(map: &Map, bytes: usize, least: usize) -> Self {
         let side = map.width().max(map.height()) as usize;
-        let (most, places) = shares(room);
+        let planes = Planes::new(map);
+        let buckets = vec![NONE; (side + 1).next_power_of_two()];
+        let (most, places) = shares(bytes.saturating_sub(planes.bytes() + buckets.len() * 4).max(least));
         Self {
-            planes: Planes::new(map),
+            planes,
             height: map.height() as i32,
             shift: map.width().next_power_of_two().trailing_zeros(),
             nodes: Vec::with_capacity(most),
@@ -99,7 +98,7 @@ impl Jumps {
             table: vec![0; places],
             places: FIRST_TABLE,
             used: 0,
-            buckets: vec![NONE; (side + 1).next_power_of_two()],
+            buckets,
             open: 0,
             highest: 0,
             full: false,
@@ -140,7 +139,7 @@ impl Jumps {
     fn start(&mut self, from: Cell) {
         let (x, y) = (from.x, from.y);
         // Known in every direction: nothing better comes back to the start.
-        let start = Node { key: self.key(x, y), cost: 15, parent: NONE, next: NONE };
+        let start = Node { key: self.key(x, y), parent: NONE, next: NONE };
         if self.settle(start.key, 15) {
             self.nodes.push(start);
         }
@@ -163,7 +162,9 @@ impl Jumps {
     fn expand(&mut self, index: u32) {
         let node = self.nodes[index as usize];
         let (x, y) = self.place(node.key);
-        let steps = node.cost >> 4;
+        // The node's level is the one at hand, and that tells its steps.
+        let to_target = Lattice::Square.distance(Cell::new(x, y), self.query.to);
+        let steps = self.query.empty + 2 * self.query.level - to_target;
         let here = self.planes.row(x, y);
         let (down, up) = (here.down >> (x % 64) & 1 == 1, here.up >> (x % 64) & 1 == 1);
         match node.key >> DIRECTION {
@@ -252,7 +253,7 @@ impl Jumps {
             self.highest = self.highest.max(level);
             let bucket = level as usize & (self.buckets.len() - 1);
             let next = std::mem::replace(&mut self.buckets[bucket], self.nodes.len() as u32);
-            self.nodes.push(Node { key: key | direction << DIRECTION, cost, parent, next });
+            self.nodes.push(Node { key: key | direction << DIRECTION, parent, next });
             self.open += 1;
         }
     }
@@ -314,22 +315,19 @@ impl Jumps {
         }
     }
 
-    /// Doubles the part of the table that is in use; the nodes know what stands in it.
+    /// Doubles the part of the table that is in use.
     #[cold]
     fn grow(&mut self) {
+        let entries = self.table[..self.places].to_vec();
         self.table[..self.places].fill(0);
         self.places *= 2;
         let mask = self.places - 1;
-        for node in &self.nodes {
-            let key = cell_of(node.key);
-            let mut place = home(key) & mask;
-            while self.table[place] != 0 && (self.table[place] >> 32) as u32 != key + 1 {
+        for entry in entries.into_iter().filter(|&entry| entry != 0) {
+            let mut place = home((entry >> 32) as u32 - 1) & mask;
+            while self.table[place] != 0 {
                 place = (place + 1) & mask;
             }
-            // Later nodes of a cell have fewer steps, or as many in another direction.
-            let known = self.table[place] as u32;
-            let directions = if known >> 4 == node.cost >> 4 { known & 15 } else { 0 };
-            self.table[place] = entry_of(key, node.cost | directions);
+            self.table[place] = entry;
         }
     }
 

@@ -1,4 +1,4 @@
-//! Two floods, one from either end, that go on until they meet; on tiles of 8 × 8 cells, both lattices.
+//! Two floods on hexagons, one from either end, that go on until they meet; on tiles of 8 × 8 cells.
 //!
 //! A flooded cell keeps its distance modulo 3: neighbours differ by one at most, so three labels are enough to find
 //! the way back (Akers, *A Modification of Lee's Path Connection Algorithm*, 1967).
@@ -35,7 +35,6 @@ impl Tile {
 /// The meeting floods.
 #[derive(Debug, Clone)]
 pub(super) struct Floods {
-    lattice: Lattice,
     grid: Grid,
     tiles: Vec<Tile>,
     /// Tiles on the rim of either flood.
@@ -67,30 +66,17 @@ impl Floods {
         let grid = Grid::new(map);
         let mut tiles = vec![Tile::default(); grid.len];
         each_free(map, |tile, free| tiles[tile].free = free);
-        let list = || List::new(grid);
-        Self {
-            lattice: map.lattice(),
-            grid,
-            tiles,
-            rims: [list(), list()],
-            next: list(),
-            touched: list(),
-            met: None,
-        }
+        // A rim goes through few of the tiles.
+        let list = || List::with_room(grid.len / 4);
+        Self { grid, tiles, rims: [list(), list()], next: list(), touched: List::new(grid), met: None }
     }
 
     /// The length of a shortest way between two different cells.
     pub(super) fn run(&mut self, from: Cell, to: Cell) -> Option<u32> {
-        match self.lattice {
-            Lattice::Square => self.flood::<false>(from, to),
-            Lattice::Hex => self.flood::<true>(from, to),
-        }
-    }
-
-    fn flood<const HEX: bool>(&mut self, from: Cell, to: Cell) -> Option<u32> {
         self.reset();
         for (flood, cell) in [from, to].into_iter().enumerate() {
             let (tile, bit) = self.grid.locate(cell);
+            self.next.make_room(1);
             self.pour(tile, 1 << bit, Ink::new(0, flood));
             self.advance(flood);
         }
@@ -103,7 +89,7 @@ impl Floods {
                 let at = self.rims[flood].get(i);
                 let cells = self.tiles[at].rim & !(self.tiles[at].second ^ ink.second);
                 self.tiles[at].rim ^= cells;
-                if self.spread::<HEX>(at, cells, ink) {
+                if self.spread(at, cells, ink) {
                     self.met = self.touching(at, cells, ink.second);
                     met = true;
                     break;
@@ -131,21 +117,19 @@ impl Floods {
 
     /// Floods the neighbours of a tile's rim cells; true if the other flood is there.
     #[inline]
-    fn spread<const HEX: bool>(&mut self, at: usize, cells: u64, ink: Ink) -> bool {
+    fn spread(&mut self, at: usize, cells: u64, ink: Ink) -> bool {
         let stride = self.grid.stride;
+        self.next.make_room(7);
         let mut inside = (cells & !EAST) << 1 | (cells & !WEST) >> 1;
         let (mut east, mut west) = ((cells & EAST) >> 7, (cells & WEST) << 7);
         let mut met = false;
-        // The cells that have a neighbour straight above and below, as squares count rows.
-        let mut upright = cells;
-        if HEX {
-            upright |= (cells & !EVEN & !EAST) << 1 | (cells & EVEN & !WEST) >> 1;
-            let (far_east, far_west) = ((cells & !EVEN & EAST) >> 7, (cells & EVEN & WEST) << 7);
-            east |= far_east << 8 | far_east >> 8;
-            west |= far_west << 8 | far_west >> 8;
-            met |= self.pour(at + stride + 1, far_east >> 56, ink);
-            met |= self.pour(at - stride - 1, far_west << 56, ink);
-        }
+        // The columns of the neighbours in the rows above and below.
+        let upright = cells | (cells & !EVEN & !EAST) << 1 | (cells & EVEN & !WEST) >> 1;
+        let (far_east, far_west) = ((cells & !EVEN & EAST) >> 7, (cells & EVEN & WEST) << 7);
+        east |= far_east << 8 | far_east >> 8;
+        west |= far_west << 8 | far_west >> 8;
+        met |= self.pour(at + stride + 1, far_east >> 56, ink);
+        met |= self.pour(at - stride - 1, far_west << 56, ink);
         inside |= upright << 8 | upright >> 8;
         met |= self.pour(at, inside, ink);
         met |= self.pour(at + 1, east, ink);
@@ -180,8 +164,8 @@ impl Floods {
         let (column, row) = (at % self.grid.stride, at / self.grid.stride);
         for bit in (0..64).filter(|bit| cells >> bit & 1 == 1) {
             let cell = Cell::new(column as i32 * 8 - 8 + bit % 8, row as i32 * 8 - 8 + bit / 8);
-            for dir in self.lattice.dirs() {
-                let other = self.lattice.neighbour(cell, dir);
+            for dir in Lattice::Hex.dirs() {
+                let other = Lattice::Hex.neighbour(cell, dir);
                 let (tile, bit) = self.grid.locate(other);
                 let tile = &self.tiles[tile];
                 if (tile.flooded() & (tile.second ^ second)) >> bit & 1 == 1 {
@@ -230,12 +214,12 @@ impl Floods {
         path.push(cell);
         while cell != spring {
             let before = if here == 1 { 3 } else { here - 1 };
-            let leads = |&dir: &_| label(self.lattice.neighbour(cell, dir)) == before;
-            let Some(dir) = last.filter(leads).or_else(|| self.lattice.dirs().find(leads)) else {
+            let leads = |&dir: &_| label(Lattice::Hex.neighbour(cell, dir)) == before;
+            let Some(dir) = last.filter(leads).or_else(|| Lattice::Hex.dirs().find(leads)) else {
                 debug_assert!(false, "the way back is lost");
                 return;
             };
-            cell = self.lattice.neighbour(cell, dir);
+            cell = Lattice::Hex.neighbour(cell, dir);
             path.push(cell);
             (here, last) = (before, Some(dir));
         }

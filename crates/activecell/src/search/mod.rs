@@ -1,13 +1,14 @@
 //! One start, one target: a shortest path on the bare map, without touching the rest of it.
 //!
-//! Three exact methods, of which the map's look chooses one, since each is ahead of the others somewhere
+//! Four exact methods, of which the map's look chooses one, since each is ahead of the others somewhere
 //! (mean time of a query, own measurement on `MovingAI` maps):
 //!
 //! | method | file | chosen for |
 //! |---|---|---|
 //! | jump points on bit planes | `jump.rs` | squares with few corners: rooms, streets, caves, mazes |
 //! | A* by detours, 8 × 8 cells at a time | `detour.rs` | squares strewn with small obstacles |
-//! | floods from both ends, 8 × 8 cells at a time | `meet.rs` | hexagons, and mazes of one-cell ways on squares |
+//! | cell by cell, dead ends closed | `ways.rs` | squares with mazes of one-cell ways or dense clutter |
+//! | floods from both ends, 8 × 8 cells at a time | `meet.rs` | hexagons |
 
 mod detour;
 mod jump;
@@ -16,29 +17,33 @@ mod planes;
 #[cfg(test)]
 mod tests;
 mod tiles;
+mod ways;
 
 use crate::error::Error;
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
 use detour::Detours;
-use jump::{Jumps, OutOfRoom};
+use jump::Jumps;
 use meet::Floods;
 use planes::free_word;
+use ways::Ways;
 
 /// Above this share of corners among the free cells the map is strewn with obstacles: jumps become too short.
 /// Measured: rooms, streets, caves and mazes stay below 0.05, a floor with 10 % of single obstacles has 0.16.
 const STREWN: f64 = 0.1;
 
-/// Above this many runs of free cells, along rows and columns, for each free cell the map is a maze of one-cell ways:
-/// a jump ends at every corner. Measured: such mazes have 1.0, single obstacles on 40 % of the floor 0.73.
-const ONE_CELL_WAYS: f64 = 0.85;
+/// Above this many runs of free cells, along rows and columns, for each free cell the map is a maze of one-cell ways
+/// or nearly one: words of cells hold little of a rim each.
+/// Measured: such mazes have 0.9 to 1.0, single obstacles on 40 % of the floor 0.80, on 37 % 0.74.
+const ONE_CELL_WAYS: f64 = 0.775;
 
 /// A map prepared for shortest paths between two cells.
 ///
-/// Preparing takes about 0.1 ms for a million cells. A query touches what lies on its way; what it touched is
-/// cleaned before the next one, the rest of the map is left alone. Planes and rims together take
-/// at most one byte a cell (columns and rows counted in whole words of 64), 64 bytes for each 8 cells along the
-/// border, and 64 KiB.
+/// Preparing takes 0.1 to 0.3 ms for a million cells; in mazes of one-cell ways and dense clutter the first query adds
+/// up to 4 ms for a million cells, in which it closes the dead ends. A query touches what lies on its way; what it touched is
+/// cleaned before the next one, the rest of the map is left alone. Planes and rims together take at
+/// most one byte a cell; maps of fewer than 512 × 512 cells may take 64 KiB more, and 64 bytes for each 8 cells
+/// along the border (columns and rows counted in whole words of 64).
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map, Search, check_route};
@@ -55,6 +60,8 @@ pub struct Search {
     map: Map,
     method: Method,
     engine: Engine,
+    /// Whether the engine is not the method's, but answered a query that the method had no room for.
+    stands_in: bool,
 }
 
 /// How a map is searched.
@@ -64,15 +71,22 @@ pub(crate) enum Method {
     Jump,
     /// A* by detours; squares only.
     Detour,
-    /// Two floods that meet.
+    /// Cell by cell with the dead ends closed; squares only.
+    Ways,
+    /// Two floods that meet; hexagons only.
     Meet,
 }
+
+/// Why a search ended without an answer: its rim outgrew the memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct OutOfRoom;
 
 /// A method with its planes and its rim.
 #[derive(Debug, Clone, Default)]
 enum Engine {
     Jump(Box<Jumps>),
     Detour(Box<Detours>),
+    Ways(Box<Ways>),
     Meet(Box<Floods>),
     /// Between two methods: the memory of the one is given back before the other takes its own.
     #[default]
@@ -87,9 +101,13 @@ impl Search {
 
     /// Prepares a map for one method.
     pub(crate) fn by(map: &Map, method: Method) -> Self {
-        // Hexagons know one method.
-        let method = if map.lattice() == Lattice::Hex { Method::Meet } else { method };
-        Self { map: map.clone(), method, engine: Engine::new(map, method) }
+        // Hexagons know one method, and no other lattice knows it.
+        let method = match map.lattice() {
+            Lattice::Hex => Method::Meet,
+            Lattice::Square if method == Method::Meet => Method::of(map),
+            Lattice::Square => method,
+        };
+        Self { map: map.clone(), method, engine: Engine::new(map, method), stands_in: false }
     }
 
     /// A shortest path from `from` to `to`, cell by cell, both ends included; `None` if there is none.
@@ -106,6 +124,7 @@ impl Search {
         Ok(Some(match &self.engine {
             Engine::Jump(jumps) => jumps.path(from, to, steps),
             Engine::Detour(detours) => detours.path(from, to, steps),
+            Engine::Ways(ways) => ways.path(from, to, steps),
             Engine::Meet(floods) => floods.path(from, to, steps),
             Engine::None => Vec::new(),
         }))
@@ -129,25 +148,20 @@ impl Search {
         if from == to {
             return Ok(Some(0));
         }
-        if self.method == Method::Jump {
-            return Ok(self.jump(from, to));
-        }
-        Ok(self.engine.run(from, to).unwrap_or_default())
-    }
-
-    /// Searches by jumps; a query whose rim outgrows its memory is answered by detours, in the same memory.
-    fn jump(&mut self, from: Cell, to: Cell) -> Option<u32> {
-        if !matches!(self.engine, Engine::Jump(_)) {
+        if self.stands_in {
             self.engine = Engine::default();
-            self.engine = Engine::new(&self.map, Method::Jump);
+            self.engine = Engine::new(&self.map, self.method);
+            self.stands_in = false;
         }
         if let Ok(steps) = self.engine.run(from, to) {
-            return steps;
+            return Ok(steps);
         }
+        // The rim outgrew its memory: the query is answered by detours, in the same memory.
         // The old planes go before the new ones come.
         self.engine = Engine::default();
         self.engine = Engine::new(&self.map, Method::Detour);
-        self.engine.run(from, to).unwrap_or_default()
+        self.stands_in = true;
+        Ok(self.engine.run(from, to).unwrap_or_default())
     }
 
     /// The memory held at present, in bytes: planes, back-trace and rims, without the map itself.
@@ -162,6 +176,7 @@ impl Search {
         match &self.engine {
             Engine::Jump(jumps) => jumps.bytes(),
             Engine::Detour(detours) => detours.bytes(),
+            Engine::Ways(ways) => ways.bytes(),
             Engine::Meet(floods) => floods.bytes(),
             Engine::None => 0,
         }
@@ -171,9 +186,11 @@ impl Search {
 impl Engine {
     fn new(map: &Map, method: Method) -> Self {
         match method {
-            // Half a byte a cell for the planes, half a byte for the rim.
-            Method::Jump => Self::Jump(Box::new(Jumps::new(map, map.cells() / 2 + (1 << 16)))),
+            // One byte a cell in all, of which the planes take half; small maps get more.
+            Method::Jump => Self::Jump(Box::new(Jumps::new(map, map.cells(), 1 << 16))),
             Method::Detour => Self::Detour(Box::new(Detours::new(map))),
+            // Five eighths for the planes, a quarter for the rims.
+            Method::Ways => Self::Ways(Box::new(Ways::new(map, (map.cells() / 48).max(1 << 10)))),
             Method::Meet => Self::Meet(Box::new(Floods::new(map))),
         }
     }
@@ -186,6 +203,7 @@ impl Engine {
                 let empty = Lattice::Square.distance(from, to);
                 Ok(detours.run(from, to).map(|detours| empty + 2 * detours))
             }
+            Self::Ways(ways) => ways.run(from, to),
             Self::Meet(floods) => Ok(floods.run(from, to)),
             Self::None => Ok(None),
         }
@@ -197,7 +215,7 @@ impl Method {
     fn of(map: &Map) -> Self {
         match map.lattice() {
             Lattice::Hex => Self::Meet,
-            Lattice::Square if map.clutter() > ONE_CELL_WAYS => Self::Meet,
+            Lattice::Square if map.clutter() > ONE_CELL_WAYS => Self::Ways,
             Lattice::Square if corner_share(map) > STREWN => Self::Detour,
             Lattice::Square => Self::Jump,
         }

@@ -35,8 +35,22 @@ pub(super) struct List {
 }
 
 impl List {
+    /// A list with room for all tiles.
     pub(super) fn new(grid: Grid) -> Self {
-        Self { items: vec![0; grid.len + 1], len: 0 }
+        Self::with_room(grid.len + 1)
+    }
+
+    /// A list with room for so many tiles; [`make_room`](Self::make_room) gives it more.
+    pub(super) fn with_room(tiles: usize) -> Self {
+        Self { items: vec![0; tiles], len: 0 }
+    }
+
+    /// Sees to it that as many tiles may be put, wanted or not.
+    #[inline]
+    pub(super) fn make_room(&mut self, tiles: usize) {
+        if self.len + tiles > self.items.len() {
+            self.items.resize(self.len + tiles + self.items.len() / 4, 0);
+        }
     }
 
     /// Appends a tile if it is `wanted`.
