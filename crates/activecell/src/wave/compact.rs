@@ -1,6 +1,6 @@
 //! Compact fields: of each cell's distance only the one or two bits that tell which neighbours are nearer.
 
-use super::tiles::{Plane, Tiles};
+use super::flood::{Bits, FIRST, Record, Tiles};
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::Map;
@@ -72,27 +72,25 @@ impl Map {
         let parity = |cell: Cell| (cell.x ^ cell.y) as u32 & 1;
         let first = parity(targets[0]);
         let half = self.lattice() == Lattice::Square && targets.iter().all(|&cell| parity(cell) == first);
-        let mut tiles = Tiles::new(self);
         let labels = if half {
-            tiles.flood(targets, |step| (step >> 1 & 1) as u8);
+            let mut tiles = Tiles::<Seconds>::new(self);
+            tiles.flood(targets);
             Labels::Half {
                 parity: first,
                 reached: reached(self, &tiles),
-                second: label(self, &tiles, Plane::Low),
+                second: label(self, &tiles, |record| record.second),
             }
         } else {
-            tiles.flood(targets, |step| (step % 3) as u8);
-            let (mut low, mut high) = (label(self, &tiles, Plane::Low), label(self, &tiles, Plane::High));
-            let mut never = Dense::new(self);
-            tiles.rows(Plane::Open, |y, open| never.or_row(y, open));
-            for y in 0..self.height() {
-                never.or_row(y as usize, self.obstacles().row(y));
+            let mut tiles = Tiles::<Thirds>::new(self);
+            tiles.flood(targets);
+            Labels::Thirds {
+                low: label(self, &tiles, |record| {
+                    Bits(std::array::from_fn(|i| !record.reached.0[i] | record.low.0[i]))
+                }),
+                high: label(self, &tiles, |record| {
+                    Bits(std::array::from_fn(|i| !record.reached.0[i] | record.high.0[i]))
+                }),
             }
-            for ((low, high), never) in low.words.iter_mut().zip(&mut high.words).zip(never.words) {
-                *low |= never;
-                *high |= never;
-            }
-            Labels::Thirds { low, high }
         };
         Ok(CompactField { lattice: self.lattice(), width: self.width(), height: self.height(), labels })
     }
@@ -109,31 +107,78 @@ pub(super) fn check_targets(map: &Map, targets: &[Cell]) -> Result<(), Error> {
     Ok(())
 }
 
-fn label(map: &Map, tiles: &Tiles, plane: Plane) -> Dense {
+/// Bit 1 of each cell's step.
+#[derive(Debug, Clone, Copy, Default)]
+struct Seconds {
+    /// There was a front.
+    seen: bool,
+    reached: Bits,
+    second: Bits,
+}
+
+impl Record for Seconds {
+    #[inline]
+    fn is_full(&self, _: u32) -> bool {
+        !self.seen
+    }
+    fn renew(&mut self, _: u32, _: &mut Vec<Self>) -> bool {
+        self.seen = true;
+        true
+    }
+    #[inline]
+    fn put(&mut self, time: u32, front: &Bits) {
+        add(&mut self.reached, front, 1);
+        add(&mut self.second, front, (time - FIRST) >> 1);
+    }
+}
+
+/// Each cell's step modulo 3.
+#[derive(Debug, Clone, Copy, Default)]
+struct Thirds {
+    /// There was a front.
+    seen: bool,
+    reached: Bits,
+    low: Bits,
+    high: Bits,
+}
+
+impl Record for Thirds {
+    #[inline]
+    fn is_full(&self, _: u32) -> bool {
+        !self.seen
+    }
+    fn renew(&mut self, _: u32, _: &mut Vec<Self>) -> bool {
+        self.seen = true;
+        true
+    }
+    #[inline]
+    fn put(&mut self, time: u32, front: &Bits) {
+        let step = (time - FIRST) % 3;
+        add(&mut self.reached, front, 1);
+        add(&mut self.low, front, step);
+        add(&mut self.high, front, step >> 1);
+    }
+}
+
+/// Adds a front to a plane if `bit` is odd.
+#[inline]
+fn add(plane: &mut Bits, front: &Bits, bit: u32) {
+    let mask = u64::from(bit & 1).wrapping_neg();
+    for (plane, front) in plane.0.iter_mut().zip(front.0) {
+        *plane |= front & mask;
+    }
+}
+
+fn label<R: Record>(map: &Map, tiles: &Tiles<R>, plane: impl Fn(&R) -> Bits) -> Dense {
     let mut dense = Dense::new(map);
     tiles.rows(plane, |y, row| dense.or_row(y, row));
     dense
 }
 
-fn reached(map: &Map, tiles: &Tiles) -> Reached {
-    let mut all = true;
-    tiles.rows(Plane::Open, |_, row| all &= row.iter().all(|&open| open == 0));
-    if all {
-        return Reached::Free(map.clone());
-    }
-    let mut dense = Dense::new(map);
-    let width = map.width() as usize;
-    let mut row = vec![0; width.div_ceil(64)];
-    tiles.rows(Plane::Open, |y, open| {
-        for ((word, open), blocked) in row.iter_mut().zip(open).zip(map.obstacles().row(y as u32)) {
-            *word = !(open | blocked);
-        }
-        if let Some(last) = row.last_mut() {
-            *last &= u64::MAX >> ((64 - width % 64) % 64);
-        }
-        dense.or_row(y, &row);
-    });
-    Reached::Only(dense)
+fn reached(map: &Map, tiles: &Tiles<Seconds>) -> Reached {
+    let dense = label(map, tiles, |record| record.reached);
+    let count: usize = dense.words.iter().map(|word| word.count_ones() as usize).sum();
+    if count == map.free_cells() { Reached::Free(map.clone()) } else { Reached::Only(dense) }
 }
 
 impl CompactField {

@@ -74,7 +74,7 @@ impl Tiles {
 }
 
 /// Floods the map from all `targets`. `None` if a distance does not fit into 16 bits, or if the map turns out to
-/// be one for the queue.
+/// be one for another method.
 pub(super) fn flood(map: &Map, targets: &[Cell]) -> Option<Tiles> {
     let mut automaton = Automaton::new(map);
     for target in targets {
@@ -202,7 +202,7 @@ impl<'a> Automaton<'a> {
     /// Whether tiles are the right means for this map. Where walls cut tiles into parts that the wave reaches at
     /// different times, each is woken again and again. Measured after 128, 256, 512, … times, per known tile:
     /// rooms, halls, streets and 20 % of random obstacles stay below 1.3, 1.45, 1.6, 1.8; mazes of four cells and
-    /// 40 % of random obstacles, where the queue is faster, are above 1.3, 1.6, 1.9, 2.5.
+    /// 40 % of random obstacles, where other methods are faster, are above 1.3, 1.6, 1.9, 2.5.
     fn pays(&self) -> bool {
         if self.woken < TRIAL || !self.woken.is_power_of_two() {
             return true;
