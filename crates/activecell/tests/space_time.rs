@@ -86,11 +86,13 @@ fn fronts(map: &Map, closures: &Closures, cell: Cell) -> Vec<BTreeSet<Cell>> {
 fn check(world: &World, closures: &Closures, plan: &Plan) {
     let World { map, cell, field, .. } = world;
     let fronts = fronts(map, closures, *cell);
-    assert_eq!(plan.safe_slots(), fronts.len() - 1);
-    assert_eq!(plan.is_safe(), fronts.len() == closures.slots() + 1);
+    let last = fronts.len() - 1;
+    assert_eq!(plan.cells().len(), fronts.len());
+    assert_eq!(plan.safe_slots(), last.min(world.slots.certain.into()));
+    assert_eq!(plan.is_safe(), last >= world.slots.certain.into());
     let early = fronts.iter().position(|front| front.iter().any(|&cell| field.steps(cell) == Some(0)));
-    let late = fronts[fronts.len() - 1].iter().filter_map(|&cell| field.steps(cell)).min();
-    let arrival = early.map_or(late.map(|rest| rest + plan.safe_slots() as u32), |slot| Some(slot as u32));
+    let late = fronts[last].iter().filter_map(|&cell| field.steps(cell)).min();
+    let arrival = early.map_or(late.map(|rest| rest + last as u32), |slot| Some(slot as u32));
     assert_eq!(plan.arrival_slots(), arrival);
     assert_eq!(plan.cells()[0], *cell);
     for (slot, pair) in plan.cells().windows(2).enumerate() {
@@ -98,12 +100,12 @@ fn check(world: &World, closures: &Closures, plan: &Plan) {
         assert!(way.is_some() || pair[0] == pair[1], "{pair:?}");
         assert!(map.is_free(pair[1]) && !closures.is_closed(slot, pair[0], way));
     }
-    if let (Some(slot), true) = (early, plan.safe_slots() > 0) {
+    if let (Some(slot), true) = (early, last > 0) {
         assert_eq!(field.steps(plan.cells()[slot]), Some(0));
     } else if let Some(rest) = late {
-        assert_eq!(field.steps(plan.cells()[plan.safe_slots()]), Some(rest));
+        assert_eq!(field.steps(plan.cells()[last]), Some(rest));
     }
-    assert_eq!(plan.step() == Step::NoSafeStep, plan.safe_slots() == 0);
+    assert_eq!(plan.step() == Step::NoSafeStep, last == 0);
 }
 
 #[test]

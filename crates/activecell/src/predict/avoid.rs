@@ -19,9 +19,9 @@ pub struct Slots {
     pub slot_s: f64,
     /// The radius of the robot, and how far it may be off its way. Default 0.2 m.
     pub robot_radius_m: f64,
-    /// In so many slots all that objects can reach is closed. More: safer, and more timid. Default 4.
+    /// In so many slots all that objects can reach is closed. More: safer, and more timid. Default 3.
     pub certain: u8,
-    /// In so many more slots the places where they are likely to be are closed. Default 8.
+    /// In so many more slots the places where they are likely to be are closed. Default 5.
     pub likely: u8,
     /// An object that has stood for so long is gone round like an obstacle. Default 3 s.
     pub parked_s: f64,
@@ -29,7 +29,7 @@ pub struct Slots {
 
 impl Default for Slots {
     fn default() -> Self {
-        Self { slot_s: 1.0, robot_radius_m: 0.2, certain: 4, likely: 8, parked_s: 3.0 }
+        Self { slot_s: 1.0, robot_radius_m: 0.2, certain: 3, likely: 5, parked_s: 3.0 }
     }
 }
 

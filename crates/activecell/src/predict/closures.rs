@@ -37,6 +37,8 @@ pub struct Closures {
     pub(super) window: Window,
     pub(super) free: Rows,
     pub(super) start_s: f64,
+    /// In how many slots all that can be reached is closed.
+    pub(super) certain: usize,
     /// For each slot a plane for each direction, and one for standing.
     pub(super) closed: Vec<Vec<Rows>>,
 }
@@ -68,7 +70,7 @@ impl Closures {
         let window = Window::around(map.lattice(), cell, slots.count());
         let planes = usize::from(map.lattice().degree()) + 1;
         let closed = vec![vec![window.empty(); planes]; slots.count().into()];
-        Ok(Self { window, free: window.free(map), start_s, closed })
+        Ok(Self { window, free: window.free(map), start_s, certain: slots.certain.into(), closed })
     }
 
     /// The same window with everything open.
@@ -95,8 +97,7 @@ impl Closures {
         let cells: Vec<Cell> = self.window.cells(&self.free).collect();
         for slot in 0..self.closed.len() {
             let from_s = self.start_s + slots.slot_s * slot as f64;
-            let Some(object) = swept(track, from_s, from_s + slots.slot_s, slot < slots.certain.into())
-            else {
+            let Some(object) = swept(track, from_s, from_s + slots.slot_s, slot < self.certain) else {
                 continue;
             };
             let touches = |from_m, to_m| {
@@ -140,8 +141,8 @@ impl Closures {
         if passed < 0.0 || passed > f64::from(slots.count()) || (passed - passed.round()).abs() > 1e-6 {
             return;
         }
-        let certain = &before.closed[..usize::from(slots.certain).min(before.closed.len())];
-        for (own, then) in self.closed.iter_mut().zip(certain.iter().skip(passed.round() as usize)) {
+        let certain = before.closed.iter().take(before.certain);
+        for (own, then) in self.closed.iter_mut().zip(certain.skip(passed.round() as usize)) {
             for (own, then) in own.iter_mut().zip(then) {
                 *own = window::both(own, &self.window.seen_through(&before.window, then));
             }

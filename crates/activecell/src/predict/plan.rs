@@ -20,24 +20,25 @@ pub enum Step {
 pub struct Plan {
     lattice: Lattice,
     cells: Vec<Cell>,
-    foreseen: usize,
+    certain: usize,
     arrival_slots: Option<u32>,
 }
 
 impl Plan {
-    /// The cells, the present one first; one more than there are safe slots.
+    /// The cells, the present one first; one more than there are slots in which objects neither can nor are likely to be
+    /// there.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
-    /// For how many slots the plan is safe.
+    /// For how many slots the plan is safe from all that objects can reach: at most [`Slots::certain`](super::Slots).
     pub fn safe_slots(&self) -> usize {
-        self.cells.len() - 1
+        (self.cells.len() - 1).min(self.certain)
     }
 
-    /// Whether it is safe as far as the robot looks ahead.
+    /// Whether it is safe for as many slots as were looked at.
     pub fn is_safe(&self) -> bool {
-        self.safe_slots() == self.foreseen
+        self.safe_slots() == self.certain
     }
 
     /// After how many slots the robot arrives, if no object gets in its way after those foreseen; `None` where no way
@@ -117,7 +118,7 @@ impl Closures {
         Plan {
             lattice: self.window.lattice,
             cells: self.follow(cell, &good, to_go),
-            foreseen: self.slots(),
+            certain: self.certain,
             arrival_slots: (rest != u32::MAX).then(|| rest.saturating_add(until as u32)),
         }
     }
