@@ -81,7 +81,7 @@ impl Object {
                 [0, 1].map(|k| -rate_radps * rate_radps * (self.at_m[k] - middle_m[k]))
             }
             Habit::Wanders => {
-                if piece % 20 == 0 {
+                if piece.is_multiple_of(20) {
                     let push = self.bounds.max_accel_mps2;
                     self.push_mps2 = [0, 1].map(|_| push * (2.0 * rng.unit() - 1.0));
                 }
@@ -92,7 +92,7 @@ impl Object {
         let push = shortened(wanted, 0.99 * self.bounds.max_accel_mps2);
         let faster = [vx + push[0] * PIECE_S, vy + push[1] * PIECE_S];
         let velocity = shortened(faster, self.bounds.max_speed_mps);
-        self.at_m = [0, 1].map(|k| self.at_m[k] + (self.velocity_mps[k] + velocity[k]) / 2.0 * PIECE_S);
+        self.at_m = [0, 1].map(|k| self.at_m[k] + f64::midpoint(self.velocity_mps[k], velocity[k]) * PIECE_S);
         self.velocity_mps = velocity;
         self.way.push((PIECE_S * (piece + 1) as f64, self.at_m));
     }
@@ -139,7 +139,10 @@ impl Drives<'_> {
             let plan = (slot > 0).then(|| avoider.plan(&tracks, cell, PIECE_S * begin as f64).unwrap());
             let next = plan.as_ref().map_or(cell, |plan| self.after(cell, plan));
             if let Some(plan) = &plan {
-                assert!(plan.safe_slots() + 1 >= promised, "{promised} were promised: {plan:?}");
+                assert!(
+                    plan.is_safe() || plan.safe_slots() + 1 >= promised,
+                    "{promised} were promised: {plan:?}"
+                );
                 promised = plan.safe_slots();
                 drive.slots += 1;
                 drive.waits += usize::from(next == cell);
@@ -147,10 +150,10 @@ impl Drives<'_> {
             }
             for piece in begin..begin + PIECES_A_SLOT {
                 for (name, object) in (0..).zip(&mut self.objects) {
-                    if piece % SEEN_EVERY == 0 || piece + 1 == begin + PIECES_A_SLOT {
+                    if piece.is_multiple_of(SEEN_EVERY) || piece + 1 == begin + PIECES_A_SLOT {
                         let track = tracks.entry(name).or_insert_with(|| Track::new(object.bounds).unwrap());
                         assert!(track.may_be_at(PIECE_S * piece as f64, object.at_m), "{object:?}");
-                        if piece % SEEN_EVERY == 0 {
+                        if piece.is_multiple_of(SEEN_EVERY) {
                             assert!(track.observe(PIECE_S * piece as f64, object.seen(rng)).unwrap());
                         }
                     }
@@ -219,6 +222,7 @@ fn random_worlds(count: u64, objects: u32) -> Vec<Drive> {
             robot_radius_m: 0.1 + 0.15 * rng.unit(),
             certain: env("CERTAIN", 3),
             likely: env("LIKELY", 5),
+            patience: env("PATIENCE", 8),
             ..Slots::default()
         };
         let objects: Vec<Object> = (0..=rng.below(objects)).map(|_| Object::random(&map, &mut rng)).collect();
@@ -345,7 +349,7 @@ fn the_filter_knows_how_uncertain_it_is() {
                     let before = v;
                     v = [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1]];
                     v = v.map(|x| x + wander * piece.sqrt() * rng.normal());
-                    at = [0, 1].map(|k| at[k] + (before[k] + v[k]) / 2.0 * piece);
+                    at = [0, 1].map(|k| at[k] + f64::midpoint(before[k], v[k]) * piece);
                 }
             }
         }

@@ -21,6 +21,8 @@ pub struct Slots {
     pub robot_radius_m: f64,
     /// In so many slots all that objects can reach is closed. More: safer, and more timid. Default 3.
     pub certain: u8,
+    /// Having come no nearer for so many slots, the robot looks one certain slot less ahead, down to one. Default 8.
+    pub patience: u8,
     /// In so many more slots the places where they are likely to be are closed. Default 5.
     pub likely: u8,
     /// An object that has stood for so long is gone round like an obstacle. Default 3 s.
@@ -29,7 +31,7 @@ pub struct Slots {
 
 impl Default for Slots {
     fn default() -> Self {
-        Self { slot_s: 1.0, robot_radius_m: 0.2, certain: 3, likely: 5, parked_s: 3.0 }
+        Self { slot_s: 1.0, robot_radius_m: 0.2, certain: 3, patience: 8, likely: 5, parked_s: 3.0 }
     }
 }
 
@@ -100,6 +102,9 @@ pub struct Avoider {
     /// The way from each cell, round the obstacles and the objects that are parked.
     field: LiveField,
     parked: BTreeSet<Cell>,
+    /// The nearest to the target that it was, in steps, and for how many slots it has not come nearer.
+    nearest: u32,
+    stuck: u32,
     /// By object: what it closed when last looked at, and how often it had broken its bounds.
     closed: BTreeMap<u32, (u32, Closures)>,
 }
@@ -115,6 +120,8 @@ impl Avoider {
             map: map.clone(),
             field: LiveField::new(map, target)?,
             parked: BTreeSet::new(),
+            nearest: u32::MAX,
+            stuck: 0,
             closed: BTreeMap::new(),
         })
     }
@@ -138,22 +145,42 @@ impl Avoider {
     /// # Errors
     /// [`Error::BadValue`] for a time beyond 10⁹ s; [`Error::OutsideMap`] or [`Error::StartOccupied`] for the cell.
     pub fn plan(&mut self, tracks: &BTreeMap<u32, Track>, cell: Cell, time_s: f64) -> Result<Plan, Error> {
-        let mut all = Closures::none(&self.map, cell, self.slots, time_s)?;
+        self.map.check_task(cell, cell)?;
+        self.go_round_parked(tracks, cell, time_s);
+        let slots = self.bolder(cell);
+        let open = Closures::none(&self.map, cell, slots, time_s)?;
+        let mut all = open.clone();
         let mut closed = BTreeMap::new();
         for (&name, track) in tracks {
-            let mut own = all.blank();
-            own.close(&self.map, self.slots, track);
+            let mut own = open.clone();
+            own.close(&self.map, slots, track);
             if let Some((breaks, before)) = self.closed.get(&name)
                 && *breaks == track.breaks()
             {
-                own.refine(before, self.slots);
+                own.refine(before, slots);
             }
             all.add(&own);
             closed.insert(name, (track.breaks(), own));
         }
         self.closed = closed;
-        self.go_round_parked(tracks, cell, time_s);
         Ok(all.plan(cell, |cell| self.field.steps(cell)))
+    }
+
+    /// How far to look ahead after long waiting: a robot that must be safe from all that could happen in many slots never
+    /// passes an object that could set out. Each step taken is safe all the same.
+    fn bolder(&mut self, cell: Cell) -> Slots {
+        let steps = self.field.steps(cell).unwrap_or(u32::MAX);
+        let patience = u32::from(self.slots.patience.max(1));
+        if steps < self.nearest {
+            self.nearest = steps;
+            // Boldness goes slowly, or it would turn back halfway.
+            self.stuck = self.stuck.saturating_sub(2);
+        } else {
+            self.stuck = (self.stuck + 1).min(patience * u32::from(self.slots.certain));
+        }
+        let less = ((self.stuck / patience) as u8).min(self.slots.certain - 1);
+        let (certain, likely) = (self.slots.certain - less, self.slots.likely + less);
+        Slots { certain, likely, ..self.slots }
     }
 
     /// Blocks the cells of objects that stand, unless that leaves no way: then waiting is the only hope.
@@ -176,7 +203,10 @@ impl Avoider {
         let gone = self.parked.difference(&parked).map(|&cell| (cell, !self.map.is_free(cell)));
         let come = parked.difference(&self.parked).map(|&cell| (cell, true));
         let changes: Vec<(Cell, bool)> = gone.chain(come).collect();
-        self.field.set_all(&changes);
+        if !changes.is_empty() {
+            self.field.set_all(&changes);
+            self.nearest = u32::MAX;
+        }
         self.parked = parked;
     }
 

@@ -14,7 +14,7 @@ use crate::map::Map;
 /// Nothing is sampled: the robot's way, a straight line between centres or a point, and what the object can sweep over
 /// in the slot are capsules ([`Track::reach`]), and the slot is closed if they may touch. In the first
 /// [`Slots::certain`] slots all that the object can *reach* is closed, in the next [`Slots::likely`] what it is
-/// *likely* to be in. After them everything is open: there is no knowledge, but a new plan each slot.
+/// *likely* to be in (and can reach). After them everything is open: there is no knowledge, but a new plan each slot.
 ///
 /// ```
 /// use activecell::predict::{Bounds, Closures, Slots, Track};
@@ -37,11 +37,14 @@ pub struct Closures {
     pub(super) window: Window,
     pub(super) free: Rows,
     pub(super) start_s: f64,
-    /// In how many slots all that can be reached is closed.
-    pub(super) certain: usize,
-    /// For each slot a plane for each direction, and one for standing.
-    pub(super) closed: Vec<Vec<Rows>>,
+    /// What objects can reach, in the certain slots.
+    pub(super) reach: Vec<Planes>,
+    /// Where they are likely to be, in all slots.
+    likely: Vec<Planes>,
 }
+
+/// The closed cells of a slot: a plane for each direction, and one for standing.
+pub(super) type Planes = Vec<Rows>;
 
 /// The likely place of an object is where it is with this probability. What is less certain is left to later plans.
 const LIKELY: f64 = 0.9;
@@ -55,7 +58,7 @@ impl Closures {
     pub fn new(map: &Map, cell: Cell, slots: Slots, start_s: f64, tracks: &[Track]) -> Result<Self, Error> {
         let mut all = Self::none(map, cell, slots, start_s)?;
         for track in tracks {
-            let mut own = all.blank();
+            let mut own = Self::none(map, cell, slots, start_s)?;
             own.close(map, slots, track);
             all.add(&own);
         }
@@ -68,68 +71,90 @@ impl Closures {
         super::within("the time of a plan, in seconds", start_s, -1e9, 1e9, "between -10⁹ and 10⁹")?;
         map.check_task(cell, cell)?;
         let window = Window::around(map.lattice(), cell, slots.count());
-        let planes = usize::from(map.lattice().degree()) + 1;
-        let closed = vec![vec![window.empty(); planes]; slots.count().into()];
-        Ok(Self { window, free: window.free(map), start_s, certain: slots.certain.into(), closed })
-    }
-
-    /// The same window with everything open.
-    pub(super) fn blank(&self) -> Self {
-        let open = vec![vec![self.window.empty(); self.closed[0].len()]; self.closed.len()];
-        Self { closed: open, free: self.free.clone(), ..*self }
+        let open = vec![window.empty(); usize::from(map.lattice().degree()) + 1];
+        Ok(Self {
+            window,
+            free: window.free(map),
+            start_s,
+            reach: vec![open.clone(); slots.certain.into()],
+            likely: vec![open; slots.count().into()],
+        })
     }
 
     /// How many slots.
     pub fn slots(&self) -> usize {
-        self.closed.len()
+        self.likely.len()
     }
 
     /// Whether the robot must not stand in the cell (no direction), or not leave it in that direction, during slot
     /// `slot`. Slots and cells beyond its foresight are open.
     pub fn is_closed(&self, slot: usize, cell: Cell, way: Option<Dir>) -> bool {
-        let plane = way.map_or(usize::from(self.window.lattice.degree()), Dir::index);
-        self.closed.get(slot).is_some_and(|planes| self.window.has(&planes[plane], cell))
+        slot < self.slots() && self.has(self.planes(slot, self.reach.len()), cell, way)
+    }
+
+    /// The same, of the places alone where objects are likely to be.
+    pub fn is_likely_closed(&self, slot: usize, cell: Cell, way: Option<Dir>) -> bool {
+        slot < self.slots() && self.has(self.planes(slot, 0), cell, way)
+    }
+
+    pub(super) fn has(&self, planes: &Planes, cell: Cell, way: Option<Dir>) -> bool {
+        self.window.has(&planes[way.map_or(planes.len() - 1, Dir::index)], cell)
+    }
+
+    /// What is closed in a slot if only the first `sure` slots keep off all that objects can reach.
+    pub(super) fn planes(&self, slot: usize, sure: usize) -> &Planes {
+        if slot < sure.min(self.reach.len()) { &self.reach[slot] } else { &self.likely[slot] }
     }
 
     /// Closes what one object may touch.
     pub(super) fn close(&mut self, map: &Map, slots: Slots, track: &Track) {
-        let degree = usize::from(map.lattice().degree());
-        let cells: Vec<Cell> = self.window.cells(&self.free).collect();
-        for slot in 0..self.closed.len() {
+        for slot in 0..self.slots() {
             let from_s = self.start_s + slots.slot_s * slot as f64;
-            let Some(object) = swept(track, from_s, from_s + slots.slot_s, slot < self.certain) else {
+            let to_s = from_s + slots.slot_s;
+            let mut reach = track.reach(from_s, to_s);
+            if slot < self.reach.len() {
+                self.reach[slot] = self.touched(map, slots, &reach);
+            }
+            let Some(likely) = likely(track, from_s, to_s, slot < self.reach.len()) else { continue };
+            reach.push(likely);
+            self.likely[slot] = self.touched(map, slots, &reach);
+        }
+    }
+
+    /// Where the robot may touch an object whose disc stays inside all of these.
+    fn touched(&self, map: &Map, slots: Slots, object: &[Capsule]) -> Planes {
+        let degree = usize::from(map.lattice().degree());
+        let mut closed = vec![self.window.empty(); degree + 1];
+        let touches = |from_m, to_m| {
+            let robot = Capsule { from_m, to_m, radius_m: slots.robot_radius_m };
+            object.iter().all(|capsule| capsule.gap_m(&robot) <= 1e-9)
+        };
+        for cell in self.window.cells(&self.free) {
+            let at_m = map.centre_m(cell);
+            // A side is at most a cell away: far cells are dismissed at once.
+            let far = Capsule { from_m: at_m, to_m: at_m, radius_m: slots.robot_radius_m };
+            if object.iter().any(|capsule| capsule.gap_m(&far) > map.frame().cell_m * 1.001) {
                 continue;
-            };
-            let touches = |from_m, to_m| {
-                let robot = Capsule { from_m, to_m, radius_m: slots.robot_radius_m };
-                object.iter().all(|capsule| capsule.gap_m(&robot) <= 1e-9)
-            };
-            for &cell in &cells {
-                let at_m = map.centre_m(cell);
-                // A side is at most a cell away: far cells are dismissed at once.
-                let far = Capsule { from_m: at_m, to_m: at_m, radius_m: slots.robot_radius_m };
-                if object.iter().any(|capsule| capsule.gap_m(&far) > map.frame().cell_m * 1.001) {
-                    continue;
-                }
-                if touches(at_m, at_m) {
-                    self.window.set(&mut self.closed[slot][degree], cell);
-                }
-                // Each side is looked at once, from one of its two cells.
-                for dir in map.lattice().dirs().take(degree / 2) {
-                    let next = map.lattice().neighbour(cell, dir);
-                    if map.is_free(next) && touches(at_m, map.centre_m(next)) {
-                        self.window.set(&mut self.closed[slot][dir.index()], cell);
-                        let back = map.lattice().opposite(dir);
-                        self.window.set(&mut self.closed[slot][back.index()], next);
-                    }
+            }
+            if touches(at_m, at_m) {
+                self.window.set(&mut closed[degree], cell);
+            }
+            // Each side is looked at once, from one of its two cells.
+            for dir in map.lattice().dirs().take(degree / 2) {
+                let next = map.lattice().neighbour(cell, dir);
+                if map.is_free(next) && touches(at_m, map.centre_m(next)) {
+                    self.window.set(&mut closed[dir.index()], cell);
+                    self.window.set(&mut closed[map.lattice().opposite(dir).index()], next);
                 }
             }
         }
+        closed
     }
 
     /// Closes what the other closes.
     pub(super) fn add(&mut self, other: &Self) {
-        for (own, other) in self.closed.iter_mut().flatten().zip(other.closed.iter().flatten()) {
+        let own = self.reach.iter_mut().chain(&mut self.likely).flatten();
+        for (own, other) in own.zip(other.reach.iter().chain(&other.likely).flatten()) {
             window::add(own, other);
         }
     }
@@ -141,8 +166,7 @@ impl Closures {
         if passed < 0.0 || passed > f64::from(slots.count()) || (passed - passed.round()).abs() > 1e-6 {
             return;
         }
-        let certain = before.closed.iter().take(before.certain);
-        for (own, then) in self.closed.iter_mut().zip(certain.skip(passed.round() as usize)) {
+        for (own, then) in self.reach.iter_mut().zip(before.reach.iter().skip(passed.round() as usize)) {
             for (own, then) in own.iter_mut().zip(then) {
                 *own = window::both(own, &self.window.seen_through(&before.window, then));
             }
@@ -150,18 +174,15 @@ impl Closures {
     }
 }
 
-/// What the object's disc may sweep over: inside all of these. `None` where nothing is known any more.
-fn swept(track: &Track, from_s: f64, to_s: f64, certain: bool) -> Option<Vec<Capsule>> {
-    let mut reach = track.reach(from_s, to_s);
-    if !certain {
-        let (begin, end) = (track.forecast(from_s)?, track.forecast(to_s)?);
-        let likely_m = begin.radius_m(LIKELY).max(end.radius_m(LIKELY));
-        // Wider than this it is a guess that would close half the floor.
-        if likely_m > 2.0 * track.bounds().radius_m + 0.5 * track.bounds().max_speed_mps * (to_s - from_s) {
-            return None;
-        }
-        let radius_m = track.bounds().radius_m + likely_m;
-        reach.push(Capsule { from_m: begin.at_m, to_m: end.at_m, radius_m });
-    }
-    Some(reach)
+/// Where the object's disc is likely to be in a slot. `None` if it was never seen, and after the certain slots where
+/// the guess is so wide that it would close half the floor.
+fn likely(track: &Track, from_s: f64, to_s: f64, certain: bool) -> Option<Capsule> {
+    let (begin, end) = (track.forecast(from_s)?, track.forecast(to_s)?);
+    let likely_m = begin.radius_m(LIKELY).max(end.radius_m(LIKELY));
+    let vague_m = 2.0 * track.bounds().radius_m + 0.5 * track.bounds().max_speed_mps * (to_s - from_s);
+    (certain || likely_m <= vague_m).then_some(Capsule {
+        from_m: begin.at_m,
+        to_m: end.at_m,
+        radius_m: track.bounds().radius_m + likely_m,
+    })
 }
