@@ -21,7 +21,7 @@ pub struct Slots {
     pub robot_radius_m: f64,
     /// In so many slots all that objects can reach is closed. More: safer, and more timid. Default 3.
     pub certain: u8,
-    /// Having come no nearer for so many slots, the robot looks one certain slot less ahead, down to one. Default 8.
+    /// Having come no nearer for so many slots, the robot looks one certain slot less ahead, down to one. Default 12.
     pub patience: u8,
     /// In so many more slots the places where they are likely to be are closed. Default 5.
     pub likely: u8,
@@ -31,7 +31,7 @@ pub struct Slots {
 
 impl Default for Slots {
     fn default() -> Self {
-        Self { slot_s: 1.0, robot_radius_m: 0.2, certain: 3, patience: 8, likely: 5, parked_s: 3.0 }
+        Self { slot_s: 1.0, robot_radius_m: 0.2, certain: 3, patience: 12, likely: 5, parked_s: 3.0 }
     }
 }
 
