@@ -213,10 +213,10 @@ impl Avoider {
     /// The free cells whose centre, or the middle of one of whose sides, is that near to a point.
     fn cells_near(&self, at_m: crate::map::PointM, near_m: f64) -> Vec<Cell> {
         let lattice = self.map.lattice();
-        let reach = (near_m / self.map.frame().cell_m).ceil() as u32 + 1;
+        let reach = (near_m / self.map.frame().cell_m).ceil() as u32;
         let mut found = BTreeSet::from([self.map.cell_at_m(at_m)]);
         let mut rim: Vec<Cell> = found.iter().copied().collect();
-        for _ in 0..reach.min(u32::from(FARTHEST)) {
+        for _ in 0..=reach.min(u32::from(FARTHEST)) {
             let around =
                 rim.iter().flat_map(|&cell| lattice.dirs().map(move |dir| lattice.neighbour(cell, dir)));
             let next: BTreeSet<Cell> = around.filter(|cell| !found.contains(cell)).collect();
