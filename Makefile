@@ -47,6 +47,7 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
+	cargo run -q -p activecell-picture --example prediction > docs/pictures/prediction.svg
 
 bench:
 	@QUICK=$(QUICK) bench/run.sh

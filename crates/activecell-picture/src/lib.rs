@@ -39,6 +39,7 @@ mod layout;
 mod legend;
 mod outline;
 mod palette;
+mod prediction;
 mod raster;
 mod route;
 mod sample;
@@ -46,6 +47,7 @@ mod scene;
 mod svg;
 mod terminal;
 
+use activecell::predict::{Closures, Plan};
 use activecell::{Cell, Map};
 use figure::Figure;
 
@@ -145,6 +147,22 @@ pub fn map_svg(map: &Map, title: &str) -> String {
 /// ```
 pub fn control_svg() -> String {
     svg::write(&control::scene())
+}
+
+/// The cells that moving objects close, and the robot's steps between them, for the first `slots` slots of a plan, as an
+/// SVG document. For small floors: each is drawn 400 pixels wide.
+///
+/// ```
+/// use activecell::predict::{Closures, Slots};
+/// use activecell::{Cell, Lattice, Map};
+/// let map = Map::parse(Lattice::Square, "S...F")?;
+/// let closures = Closures::new(&map, Cell::new(0, 0), Slots::default(), 0.0, &[])?;
+/// let plan = closures.plan(Cell::new(0, 0), |cell| map.lattice().distance(cell, Cell::new(4, 0)).into());
+/// assert!(activecell_picture::prediction_svg(&map, &closures, &plan, 4).contains("slot 4"));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn prediction_svg(map: &Map, closures: &Closures, plan: &Plan, slots: usize) -> String {
+    svg::write(&prediction::scene(map, closures, plan, slots))
 }
 
 /// The route as text for a terminal, at most `columns` wide and `rows` high; lines end in LF.

@@ -34,6 +34,7 @@ mod embedded;
 mod error;
 mod lattice;
 mod map;
+pub mod predict;
 mod program;
 mod rng;
 mod route;
