@@ -44,7 +44,7 @@ mod wave;
 
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
-pub use error_budget::{Certificate, Fix, Fixes, Method, Region, Trust};
+pub use error_budget::{Certificate, Fix, Fixes, Method, Region, Trust, TrustedRoute};
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{BitPlane, Clearance, Frame, MAX_CELLS, Map, PointM, Tiling};
 pub use program::{

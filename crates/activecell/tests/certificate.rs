@@ -280,3 +280,42 @@ fn least_inside(map: &Map, robot: &Robot, program: &Program, fixes: &Fixes) -> f
     }
     inside[1..].iter().map(|&inside| f64::from(inside) / f64::from(trials)).fold(1.0, f64::min)
 }
+
+#[test]
+fn trusted_routes_are_never_worse_than_those_with_the_fewest_turns() {
+    let (mut better, mut longer, mut all) = (0, 0, 0);
+    for seed in 0..24u64 {
+        let lattice = Lattice::ALL[seed as usize % 2];
+        let map =
+            if seed % 4 < 2 { rooms(lattice) } else { Map::random(lattice, 30, 30, 0.2, seed).unwrap() };
+        let free: Vec<Cell> = map.free().collect();
+        let mut rng = Rng::new(seed);
+        let mut pick = || free[rng.below(free.len() as u32) as usize];
+        let (from, to) = (pick(), pick());
+        let drive = DRIVES[seed as usize / 2 % 2];
+        let turn_rad = [0.01, 0.05][seed as usize % 2];
+        let robot = Robot { drive, errors: Errors { turn_rad, ..Errors::default() }, ..Robot::default() };
+        let heading = [None, Some(Dir(1))][seed as usize / 3 % 2];
+        let field = map.wave(to).unwrap();
+        let facing = match heading {
+            None => lattice.dirs().collect(),
+            Some(ahead) => vec![ahead, lattice.opposite(ahead)],
+        };
+        let few = field.route_facing(from, &facing);
+        let worst = |certificate: &Certificate| certificate.worst().unwrap().inside;
+        let few_worst = worst(&Certificate::new(&map, &robot, &few.program(&robot, &map, heading)));
+        let trusted = field.trusted_route(&map, &robot, from, heading);
+        assert_eq!(trusted.route.outcome(), few.outcome());
+        assert!(trusted.route.check(&map, from, to).is_ok());
+        let again = Certificate::new(&map, &robot, &trusted.route.program(&robot, &map, heading));
+        assert_eq!(again, trusted.certificate);
+        assert!(worst(&again) >= few_worst, "{seed}");
+        all += 1;
+        better += u32::from(worst(&again) > few_worst);
+        longer += u32::from(trusted.route.steps() > few.steps());
+    }
+    println!(
+        "{better} of {all} routes more trusted than those with the fewest turns, {longer} of them longer"
+    );
+    assert!(better > 5);
+}

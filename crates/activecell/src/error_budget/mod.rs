@@ -11,9 +11,11 @@ mod normal;
 mod path;
 #[cfg(test)]
 mod tests;
+mod trusted;
 mod walk;
 
 pub use fixes::{Fix, Fixes};
+pub use trusted::TrustedRoute;
 
 use crate::lattice::Cell;
 use crate::map::{Map, PointM};
