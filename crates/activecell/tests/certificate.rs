@@ -220,6 +220,41 @@ fn with_fixes_the_robot_stays_in_its_cells() {
     assert!(planned > 10);
 }
 
+/// The largest errors that a robot file may hold.
+#[test]
+fn a_lost_robot_gets_numbers_too() {
+    let lost = Errors {
+        wheel_perimeter_rel: 0.3,
+        wheel_difference_rel: 0.3,
+        track_rel: 0.3,
+        unevenness_m_per_sqrt_m: 1e6,
+        cell_division_m: 1e6,
+        stop_inertia_m: 1e6,
+        turn_rad: 1e6,
+        start_m: 1e6,
+        start_rad: 1e6,
+    };
+    let curls = Errors { wheel_difference_rel: 0.3, ..Errors::NONE };
+    for lattice in Lattice::ALL {
+        let map = Map::parse(lattice, "S..\n##.\n##F").unwrap();
+        let (from, to) = (map.mark('S').unwrap(), map.mark('F').unwrap());
+        let route = map.route(Rule::Wave, from, to, 100).unwrap();
+        for (drive, errors) in DRIVES.into_iter().flat_map(|drive| [(drive, lost), (drive, curls)]) {
+            let robot = Robot { drive, errors, track_m: 1e-4, ..Robot::default() }.checked().unwrap();
+            let program = route.program(&robot, &map, None);
+            for trust in Certificate::new(&map, &robot, &program).waypoints() {
+                assert!((0.0..=1.0).contains(&trust.inside) && trust.radius_squared.is_finite(), "{trust:?}");
+                assert!(trust.region().semi_major_m.is_finite(), "{trust:?}");
+                assert!(
+                    errors == curls || trust.method == Method::Sampled && trust.inside < 0.01,
+                    "{trust:?}"
+                );
+            }
+            let _ = Fixes::new(&map, &robot, &program, 0.95);
+        }
+    }
+}
+
 #[test]
 fn where_fixes_do_not_help_it_is_said() {
     let map = Map::parse(Lattice::Square, "S....\n####.\n####F").unwrap();

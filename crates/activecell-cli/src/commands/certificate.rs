@@ -1,6 +1,6 @@
 //! The certificate as `route --robot` tells it.
 
-use activecell::{Cell, Certificate, Fixes, Map, Method, Program, Region, Robot, Trust};
+use activecell::{Certificate, Fixes, Map, Method, Program, Region, Robot, Trust};
 use activecell_formats::certificate::CertificateReport;
 
 /// How many fixes are printed for people.
@@ -56,15 +56,14 @@ impl Certified {
         let Fixes { fixes, not_enough_at } = &self.fixes;
         let cells: Vec<String> = fixes.iter().take(PRINTED_FIXES).map(|fix| fix.cell.to_string()).collect();
         let more = if fixes.len() > PRINTED_FIXES { " …" } else { "" };
-        text += &match fixes.len() {
-            0 => format!("position fixes that keep it at {wanted} %: none needed"),
-            count => {
-                format!("position fixes that keep it at {wanted} %: {count}, at {}{more}", cells.join(" "))
+        let listed = format!("{}, at {}{more}", fixes.len(), cells.join(" "));
+        text += &match (not_enough_at, fixes.is_empty()) {
+            (None, true) => format!("position fixes that keep it at {wanted} %: none needed\n"),
+            (None, false) => format!("position fixes that keep it at {wanted} %: {listed}\n"),
+            (Some(cell), true) => format!("no position fix keeps it at {wanted} % in {cell}\n"),
+            (Some(cell), false) => {
+                format!("position fixes that keep it at {wanted} %: {listed}; but none does in {cell}\n")
             }
-        };
-        text += &match not_enough_at {
-            Some(cell) => no_fix_helps(*cell, fixes.is_empty(), wanted),
-            None => "\n".to_owned(),
         };
         text
     }
@@ -72,9 +71,4 @@ impl Certified {
 
 fn percent(share: f64) -> f64 {
     100.0 * share
-}
-
-fn no_fix_helps(cell: Cell, none: bool, wanted: f64) -> String {
-    let so_far = if none { " before" } else { ";" };
-    format!("{so_far} {cell}, where even a fix in the cell before leaves less than {wanted} %\n")
 }

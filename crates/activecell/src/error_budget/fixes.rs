@@ -26,8 +26,8 @@ pub struct Fix {
 }
 
 impl Fixes {
-    /// The fewest fixes with which a robot is, in each cell that its program leads through, there with at least the
-    /// probability `threshold`: it drives as far as that holds, and fixes in the last cell where it does.
+    /// Fixes with which a robot is, in each cell that its program leads through, there with at least the probability
+    /// `threshold`: it drives as far as that holds, and fixes in the last cell where it does.
     ///
     /// After a fix, position and heading are as sure as at the start; the wheels' deviations stay what they were. A
     /// fix does not stop the robot. The start needs none: it is one.
@@ -44,7 +44,7 @@ impl Fixes {
     pub fn new(map: &Map, robot: &Robot, program: &Program, threshold: f64) -> Self {
         let mut found = Self { fixes: Vec::new(), not_enough_at: None };
         let mut walk = Walk::new(map, robot, path::start(map, program));
-        if walk.known(program.start).inside < threshold {
+        if walk.known().inside < threshold {
             found.not_enough_at = Some(program.start);
             return found;
         }
@@ -59,7 +59,7 @@ impl Fixes {
             for &leg in legs {
                 walk.drive(leg);
             }
-            if walk.known(*cell).inside < threshold {
+            if walk.known().inside < threshold {
                 if fixed == step {
                     found.not_enough_at = Some(*cell);
                     // A fix that does not help is none.

@@ -69,7 +69,8 @@ pub struct Trust {
 pub enum Method {
     /// By formulas.
     ClosedForm,
-    /// By 10,000 robots drawn by chance, always the same, because the errors are too large for the formulas.
+    /// By 10,000 robots drawn by chance (fewer if each takes long to draw), always the same, because the errors are
+    /// too large for the formulas.
     Sampled,
 }
 
@@ -99,13 +100,27 @@ pub struct Region {
 impl Certificate {
     /// The certificate of a program on the map for which it was made.
     pub fn new(map: &Map, robot: &Robot, program: &Program) -> Self {
+        Self::walked(map, robot, program, Walk::known)
+    }
+
+    /// By the closed form, also where it does not hold.
+    fn by_formulas(map: &Map, robot: &Robot, program: &Program) -> Self {
+        Self::walked(map, robot, program, |walk| walk.closed().0)
+    }
+
+    fn walked<'a>(
+        map: &'a Map,
+        robot: &'a Robot,
+        program: &Program,
+        known: impl Fn(&mut Walk<'a>) -> Known,
+    ) -> Self {
         let mut walk = Walk::new(map, robot, path::start(map, program));
         let mut waypoints = Vec::with_capacity(program.waypoints.len());
         for ((run, turn), waypoint) in path::legs(robot, program).zip(&program.waypoints) {
             for leg in run {
                 walk.drive(leg);
             }
-            waypoints.push(Trust::new(map, waypoint.cell, &walk.known(waypoint.cell)));
+            waypoints.push(Trust::new(map, waypoint.cell, &known(&mut walk)));
             if let Some(leg) = turn {
                 walk.drive(leg);
             }
@@ -121,6 +136,11 @@ impl Certificate {
     /// The waypoint where the robot is least likely in its cell, the first of several; `None` of an empty program.
     pub fn worst(&self) -> Option<&Trust> {
         self.waypoints.iter().min_by(|a, b| a.inside.total_cmp(&b.inside))
+    }
+
+    /// The probability at the worst waypoint; 1 for an empty program.
+    fn worst_inside(&self) -> f64 {
+        self.worst().map_or(1.0, |trust| trust.inside)
     }
 
     /// The first waypoint where the robot is in its cell with less than this probability.

@@ -57,6 +57,9 @@ pub(super) fn every_wheels(robot: &Robot, heading_rad: f64) -> Vec<Moments> {
     all
 }
 
+/// A robot whose heading turns more often in one run is lost: what is known of it becomes no number.
+const MOST_PIECES: f64 = 100.0;
+
 impl Moments {
     fn new(robot: &Robot, wheels: Wheels, weight: f64, heading_rad: f64) -> Self {
         Self {
@@ -97,7 +100,11 @@ impl Moments {
                     }
                 };
                 // The power series want less than about one radian at a time.
-                let pieces = (length_m.abs() * (bend.abs() + wander)).ceil().clamp(1.0, 1e4);
+                let pieces = (length_m.abs() * (bend.abs() + wander)).ceil().max(1.0);
+                if pieces > MOST_PIECES {
+                    self.spread = f64::NAN;
+                    return;
+                }
                 for _ in 0..pieces as u32 {
                     self.run(robot, length_m / pieces, bend, wander);
                 }

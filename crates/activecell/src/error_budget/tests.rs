@@ -4,7 +4,7 @@ use super::linear::Linear;
 use super::normal::mahalanobis_squared;
 use super::path::Leg;
 use super::walk::{CROWD, Crowd, HIGHER_ORDERS, Walk};
-use crate::lattice::{Cell, Lattice};
+use crate::lattice::Lattice;
 use crate::map::Map;
 use crate::program::{Drive, Errors, Motion, Pose, Robot, Wheels};
 use crate::rng::Rng;
@@ -146,7 +146,7 @@ fn the_closed_form_agrees_with_sampling() {
             crowd.drive(*leg);
         }
         let (known, higher) = walk.closed();
-        let sampled = crowd.known(&map, Cell::new(1, 1), walk.pose());
+        let sampled = crowd.known(&map, walk.pose());
         let [[xx, xy], [_, yy]] = known.covariance_m2;
         let found = sampled.covariance_m2;
         for (a, b, scale) in

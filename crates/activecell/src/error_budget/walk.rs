@@ -4,13 +4,14 @@ use super::linear::Linear;
 use super::moments::{Moments, every_wheels};
 use super::normal::{Covariance, mahalanobis_squared, region_95, share_inside};
 use super::path::Leg;
-use crate::lattice::Cell;
 use crate::map::{Map, PointM};
-use crate::program::{Motion, Pose, Robot};
+use crate::program::{Drive, Motion, Pose, Robot};
 use crate::rng::Rng;
 
 /// Robots in a crowd: the share of them inside a cell, or a region, is right to ± 0.4 % (95 %).
 pub(super) const CROWD: usize = 10_000;
+/// The least there are, for robots that hardly know where they drive.
+const LEAST_CROWD: usize = 200;
 /// The crowd's chance is always the same.
 const SEED: u64 = 0xce57;
 
@@ -71,9 +72,9 @@ impl<'a> Walk<'a> {
         self.pose = leg.from(self.pose);
     }
 
-    /// What is known here, at the centre of a cell. Once the closed form does not hold, all that follows is
+    /// What is known here, in the cell in which the robot should be. Once the closed form does not hold, all that follows is
     /// sampled.
-    pub(super) fn known(&mut self, cell: Cell) -> Known {
+    pub(super) fn known(&mut self) -> Known {
         if self.crowd.is_none() {
             let (known, higher) = self.closed();
             if higher <= HIGHER_ORDERS {
@@ -85,7 +86,7 @@ impl<'a> Walk<'a> {
             self.driven.iter().for_each(|&leg| crowd.drive(leg));
             crowd
         });
-        crowd.known(self.map, cell, self.pose)
+        crowd.known(self.map, self.pose)
     }
 
     /// What the closed form says, and how much of it is above first order.
@@ -110,15 +111,20 @@ impl<'a> Walk<'a> {
         let linear = self.linear.covariance();
         let first = [[linear[0][0] + division, linear[0][1]], [linear[1][0], linear[1][1] + division]];
         let least_m = least_m(self.map);
+        let lost = !(xx + yy).is_finite();
         let known = Known {
             offset_m,
             covariance_m2,
             heading_rad: heading.sqrt(),
             radius_squared: region_95(&covariance_m2, least_m),
-            inside: share_inside(offset_m, &covariance_m2, &corners_m(self.map), least_m),
+            inside: if lost {
+                0.0
+            } else {
+                share_inside(offset_m, &covariance_m2, &corners_m(self.map), least_m)
+            },
             sampled: false,
         };
-        (known, higher_share(&covariance_m2, &first, least_m))
+        (known, if lost { 1.0 } else { higher_share(&covariance_m2, &first, least_m) })
     }
 }
 
@@ -152,6 +158,19 @@ fn corners_m(map: &Map) -> Vec<PointM> {
     map.lattice().corners().iter().map(corner).collect()
 }
 
+/// Fewer robots where each must be driven in many pieces, so that no robot file takes for ever: with the errors of
+/// a real robot a metre is less than one piece.
+fn crowd_size(robot: &Robot) -> usize {
+    if robot.drive == Drive::Steered {
+        return CROWD;
+    }
+    let errors = &robot.errors;
+    // Curls of the heading a metre: its bend in radians, and its variance.
+    let curls = errors.wheel_difference_rel / robot.track_m
+        + 2.0 * (errors.unevenness_m_per_sqrt_m / robot.track_m).powi(2);
+    ((CROWD as f64 / curls.max(1.0)) as usize).max(LEAST_CROWD)
+}
+
 /// Many robots of one kind on the same way.
 pub(super) struct Crowd<'a> {
     pub(super) robots: Vec<Motion<'a>>,
@@ -162,7 +181,7 @@ pub(super) struct Crowd<'a> {
 impl<'a> Crowd<'a> {
     pub(super) fn new(robot: &'a Robot, begin: Pose) -> Self {
         let mut rng = Rng::new(SEED);
-        let robots = (0..CROWD).map(|_| Motion::drawn(robot, begin, &mut rng)).collect();
+        let robots = (0..crowd_size(robot)).map(|_| Motion::drawn(robot, begin, &mut rng)).collect();
         Self { robots, division_m: robot.errors.cell_division_m, rng }
     }
 
@@ -172,7 +191,7 @@ impl<'a> Crowd<'a> {
         }
     }
 
-    pub(super) fn known(&mut self, map: &Map, cell: Cell, pose: Pose) -> Known {
+    pub(super) fn known(&self, map: &Map, pose: Pose) -> Known {
         let Pose { at_m: [x, y], bearing_rad } = pose;
         let mut rng = Rng::new(SEED ^ 1);
         let mut scatter = || self.division_m * rng.normal();
@@ -183,7 +202,7 @@ impl<'a> Crowd<'a> {
             .map(|robot| robot.pose.at_m)
             .map(|[rx, ry]| [rx - x - scatter(), ry - y - scatter()])
             .collect();
-        let share = 1.0 / CROWD as f64;
+        let share = 1.0 / self.robots.len() as f64;
         let mut offset_m = [0.0; 2];
         for offset in &offsets {
             (0..2).for_each(|axis| offset_m[axis] += share * offset[axis]);
@@ -202,7 +221,9 @@ impl<'a> Crowd<'a> {
             .iter()
             .map(|offset| mahalanobis_squared(&covariance_m2, from_mean(offset), least_m))
             .collect();
-        let (_, &mut radius_squared, _) = distances.select_nth_unstable_by(CROWD * 95 / 100, f64::total_cmp);
+        let (_, &mut radius_squared, _) =
+            distances.select_nth_unstable_by(self.robots.len() * 95 / 100, f64::total_cmp);
+        let cell = map.cell_at_m(pose.at_m);
         let [cx, cy] = map.centre_m(cell);
         let inside =
             offsets.iter().filter(|offset| map.cell_at_m([cx + offset[0], cy + offset[1]]) == cell).count();

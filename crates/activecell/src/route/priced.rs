@@ -9,7 +9,7 @@ use std::collections::{BinaryHeap, HashMap};
 /// What a step costs, in the unit of turns' prices.
 pub(crate) const STEP: u64 = 1 << 20;
 /// Places (a cell and a direction) that are looked at before a search is given up.
-const MOST_PLACES: usize = 2_000_000;
+const MOST_PLACES: usize = 500_000;
 
 /// A cell, and the direction in which it was entered.
 type Place = (Cell, Dir);
