@@ -8,7 +8,7 @@ use crate::map::{Map, PointM};
 use crate::program::{Drive, Motion, Pose, Robot};
 use crate::rng::Rng;
 
-/// Robots in a crowd: the share of them inside a cell, or a region, is right to ± 0.4 % (95 %).
+/// Robots in a crowd: with 95 %, the share of them inside a cell is right to 0.01, that in a region to 0.005.
 pub(super) const CROWD: usize = 10_000;
 /// The least there are, for robots that hardly know where they drive.
 const LEAST_CROWD: usize = 200;
@@ -41,7 +41,7 @@ pub(super) struct Walk<'a> {
     /// Without any error.
     pose: Pose,
     driven: Vec<Leg>,
-    pub(super) linear: Linear,
+    linear: Linear,
     moments: Vec<Moments>,
     crowd: Option<Crowd<'a>>,
 }
@@ -72,8 +72,8 @@ impl<'a> Walk<'a> {
         self.pose = leg.from(self.pose);
     }
 
-    /// What is known here, in the cell in which the robot should be. Once the closed form does not hold, all that follows is
-    /// sampled.
+    /// What is known here, in the cell in which the robot should be. Once the closed form does not hold, all that
+    /// follows is sampled.
     pub(super) fn known(&mut self) -> Known {
         if self.crowd.is_none() {
             let (known, higher) = self.closed();
