@@ -11,8 +11,9 @@ use crate::program::{Drive, Errors, Robot, Wheels};
 /// from one leg to the next without any approximation; headings of any size are allowed. Covariances are carried,
 /// not mean squares: nothing cancels far from the start.
 ///
-/// Source: Wang, *Location Estimation and Uncertainty Analysis for Mobile Robots*, 1988, who takes the means of sine
-/// and cosine of a normal heading in place of their linear terms; the recursion over runs that bend is ours.
+/// That the means of sine and cosine of a normal angle are known exactly is used for single points by Lerro and
+/// Bar-Shalom, *Tracking with Debiased Consistent Converted Measurements versus EKF*, 1993; the recursion over a way
+/// whose runs bend and wander is ours.
 #[derive(Debug, Clone)]
 pub(super) struct Moments {
     /// Its share among all wheels.
