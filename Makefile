@@ -46,6 +46,7 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/detour.txt --from S --to F --rule published --draw never --picture docs/pictures/detour.svg > /dev/null
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
+	$(ACTIVECELL) route maps/office.yaml --cell 0.5 --from 1.2m,1.5m --to 19m,11m --robot maps/robot.toml --draw never --picture docs/pictures/certificate.png -q > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
 	cargo run -q -p activecell-picture --example prediction > docs/pictures/prediction.svg
 

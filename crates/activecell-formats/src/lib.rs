@@ -7,6 +7,7 @@
 //! | [`raster`] | images: PNG, PGM, PPM |
 //! | [`robot`] | robots: TOML |
 //! | [`run`] | routes and runs: JSON |
+//! | [`certificate`] | certificates, in the routes' JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
 //! Everything but [`files`] works on bytes in memory. Input is never trusted: sizes that a header declares are
@@ -24,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod certificate;
 mod error;
 pub mod files;
 pub mod movingai;

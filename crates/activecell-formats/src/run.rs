@@ -1,5 +1,6 @@
 //! Runs: a map, a robot, a task and its route in one JSON file, and the route's report that commands print.
 
+use crate::certificate::CertificateReport;
 use crate::error::Error;
 use crate::robot::to_json;
 use activecell::{Cell, Dir, Effort, Map, Outcome, Program, Robot, Route, Rule};
@@ -44,8 +45,8 @@ pub struct RouteReport {
     /// How far the route stays from obstacles, in metres between centres; left out unless it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance_m: Option<f64>,
-    /// How far the robot can be trusted; null until a certificate is asked for.
-    pub certificate: Option<()>,
+    /// How far the robot can be trusted; null unless a robot was given and it arrives.
+    pub certificate: Option<CertificateReport>,
     /// How long it took to find.
     pub seconds: Seconds,
 }

@@ -5,6 +5,7 @@ use crate::colour::{
 };
 use crate::font;
 use crate::layout::{Layout, round_length};
+use crate::region;
 use crate::route;
 use crate::scene::{Line, Point, Shape, Text};
 use activecell::Map;
@@ -17,6 +18,7 @@ pub(crate) enum Key {
     Route,
     Turn,
     Trapped,
+    Region,
     Active,
     Wave,
     Obstacle,
@@ -34,6 +36,7 @@ impl Key {
             Self::Route => "route",
             Self::Turn => "turn",
             Self::Trapped => "trapped",
+            Self::Region => "where it is, 95 %",
             Self::Active => "active cell",
             Self::Wave => "wave, near to far",
             Self::Obstacle => "obstacle",
@@ -44,7 +47,7 @@ impl Key {
     /// Width of the icon, in multiples of the text's size.
     const fn icon_width(self) -> f64 {
         match self {
-            Self::Route | Self::Trapped => 2.0,
+            Self::Route | Self::Trapped | Self::Region => 2.0,
             Self::Wave => 4.0,
             Self::Turn => 0.8,
             _ => 1.2,
@@ -68,6 +71,10 @@ impl Key {
             Self::Trapped => {
                 let line = Line { colour: PURPLE, width: 0.3 * size, dash: Some(0.4 * size) };
                 band(shapes, PURPLE_TINT, line);
+            }
+            Self::Region => {
+                let ellipse = region::ellipse(0.4, |across, up| [middle[0] + across * size, y - up * size]);
+                shapes.extend(region::outline(vec![ellipse]));
             }
             Self::Wave => {
                 let step = width / SWATCHES as f64;

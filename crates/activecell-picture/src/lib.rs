@@ -15,6 +15,7 @@
 //!     cells: &cells,
 //!     turns: &[cells[2]],
 //!     cycle: &[],
+//!     regions: &[],
 //!     wave: None,
 //! };
 //! assert!(svg(&picture).starts_with("<svg"));
@@ -41,6 +42,7 @@ mod outline;
 mod palette;
 mod prediction;
 mod raster;
+mod region;
 mod route;
 mod sample;
 mod scene;
@@ -48,7 +50,7 @@ mod svg;
 mod terminal;
 
 use activecell::predict::{Closures, Plan};
-use activecell::{Cell, Map};
+use activecell::{Cell, Map, Region};
 use figure::Figure;
 
 /// When the wave from the target reached a cell; `None` where it did not come.
@@ -75,6 +77,8 @@ pub struct RoutePicture<'a> {
     pub turns: &'a [Cell],
     /// The cells in which the robot circles for ever, in order; empty if it does not.
     pub cycle: &'a [Cell],
+    /// The ellipses in which the robot is with 95 %, from its certificate.
+    pub regions: &'a [Region],
     /// The wave from the target over this map, if the route was found with one.
     pub wave: Option<Wave<'a>>,
 }
@@ -111,7 +115,7 @@ pub fn svg(picture: &RoutePicture<'_>) -> String {
 /// # use activecell_picture::{RoutePicture, png};
 /// # let map = Map::parse(Lattice::Hex, "...\n.#.\n...")?;
 /// # let picture = RoutePicture { map: &map, floor: None, title: "", from: Cell::new(0, 0), to: Cell::new(2, 2),
-/// #     cells: &[], turns: &[], cycle: &[], wave: None };
+/// #     cells: &[], turns: &[], cycle: &[], regions: &[], wave: None };
 /// assert!(png(&picture)?.starts_with(b"\x89PNG"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -177,7 +181,7 @@ pub fn prediction_svg(map: &Map, closures: &Closures, plan: &Plan, slots: usize)
 /// let map = Map::parse(Lattice::Square, "...\n.#.")?;
 /// let cells = [Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0), Cell::new(2, 1)];
 /// let picture = RoutePicture { map: &map, floor: None, title: "", from: cells[0], to: cells[3], cells: &cells,
-///     turns: &[], cycle: &[], wave: None };
+///     turns: &[], cycle: &[], regions: &[], wave: None };
 /// assert_eq!(terminal(&picture, 80, 24, false), " S → ↓\n .## F\n");
 /// # Ok::<(), activecell::Error>(())
 /// ```

@@ -6,6 +6,7 @@ use crate::colour::{
 };
 use crate::layout::Layout;
 use crate::legend::Key;
+use crate::region;
 use crate::scene::{Line, Point, Shape};
 use activecell::Cell;
 
@@ -34,7 +35,8 @@ impl<'a> Route<'a> {
         let mut sorted = cells.clone();
         sorted.sort_unstable();
         let once = sorted.windows(2).all(|pair| pair[0] != pair[1]);
-        let numbered = layout.cell >= NUMBER_PX && once && cycle.is_empty();
+        // Numbers would hide the regions.
+        let numbered = layout.cell >= NUMBER_PX && once && cycle.is_empty() && picture.regions.is_empty();
         let turn_radius = turn_radius(layout, &cells, picture.turns.len(), numbered);
         Self { layout, picture, cells, cycle, numbered, turn_radius }
     }
@@ -53,6 +55,7 @@ impl<'a> Route<'a> {
         add(self.cells.len() > self.cycle.len() + 1, Key::Route);
         add(self.turn_radius > 0.0 && !self.picture.turns.is_empty(), Key::Turn);
         add(!self.cycle.is_empty(), Key::Trapped);
+        add(!region::shapes(self.layout, self.picture).is_empty(), Key::Region);
         add(wave, Key::Wave);
         keys
     }
@@ -77,6 +80,7 @@ impl<'a> Route<'a> {
         if self.numbered {
             self.numbers(&mut shapes);
         }
+        shapes.extend(region::shapes(self.layout, self.picture));
         self.turns(&mut shapes);
         shapes.extend(marks(self.layout, self.picture));
         shapes

@@ -2,7 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test may panic, its helpers too")]
 
-use activecell::{Cell, Lattice, Map};
+use activecell::{Cell, Lattice, Map, Region};
 use activecell_picture::{RoutePicture, Wave, gif, map_svg, png, svg, terminal};
 use tiny_skia::Pixmap;
 
@@ -27,7 +27,18 @@ fn wave(map: &Map) -> impl Fn(Cell) -> Option<u32> {
 }
 
 fn picture<'a>(map: &'a Map, cells: &'a [Cell], wave: Option<Wave<'a>>) -> RoutePicture<'a> {
-    RoutePicture { map, floor: None, title: "floor", from: FROM, to: TO, cells, turns: &[], cycle: &[], wave }
+    RoutePicture {
+        map,
+        floor: None,
+        title: "floor",
+        from: FROM,
+        to: TO,
+        cells,
+        turns: &[],
+        cycle: &[],
+        regions: &[],
+        wave,
+    }
 }
 
 /// Where the SVG's only disc in the start's colour outside the legend lies, and how large a cell is: the page's
@@ -195,6 +206,26 @@ fn all(drawn: &RoutePicture<'_>) -> Pixmap {
         assert!(!terminal(drawn, 80, 24, colour).is_empty());
     }
     Pixmap::decode_png(&png(drawn).unwrap()).unwrap()
+}
+
+#[test]
+fn regions_are_shown_where_they_lie() {
+    let map = floor(Lattice::Square);
+    let cells = route();
+    let region =
+        |centre_m, semi_major_m| Region { centre_m, semi_major_m, semi_minor_m: 0.3, angle_rad: 0.5 };
+    let near = region(map.centre_m(Cell::new(3, 5)), 0.8);
+    let far = region([90.0, 90.0], 0.8);
+    let huge = region(map.centre_m(TO), 400.0);
+    for (regions, shown) in
+        [(vec![], false), (vec![near], true), (vec![far], false), (vec![near, far, huge], true)]
+    {
+        let drawn = RoutePicture { regions: &regions, ..picture(&map, &cells, None) };
+        let text = svg(&drawn);
+        assert_well_formed(&text);
+        assert_eq!(text.contains("95 %"), shown, "{regions:?}");
+        assert!(png(&drawn).is_ok() && gif(&drawn).is_ok());
+    }
 }
 
 #[test]

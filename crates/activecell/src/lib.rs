@@ -32,6 +32,7 @@
 pub mod control;
 mod embedded;
 mod error;
+mod error_budget;
 mod lattice;
 mod map;
 pub mod predict;
@@ -44,6 +45,7 @@ mod wave;
 
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
+pub use error_budget::{Certificate, Fix, Fixes, Method, Region, Trust, TrustedRoute};
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{BitPlane, Clearance, Frame, MAX_CELLS, Map, PointM, Tiling};
 pub use program::{

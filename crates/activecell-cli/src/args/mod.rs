@@ -89,7 +89,8 @@ pub(crate) struct MapArgs {
 Examples:
   activecell route maps/detour.txt --from S --to F
   activecell route maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m --picture route.gif
-  activecell route maps/office.yaml --cell 0.4 --lattice hex --from 2m,6m --to 19m,11m --robot maps/robot.toml --save run.json")]
+  activecell route maps/office.yaml --cell 0.4 --lattice hex --from 2m,6m --to 19m,11m --robot maps/robot.toml --save run.json
+  activecell route maps/office.yaml --cell 0.5 --from 1.2m,1.5m --to 19m,11m --robot maps/robot.toml --prefer trusted --trust 0.9")]
 pub(crate) struct RouteArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
@@ -111,9 +112,15 @@ pub(crate) struct RouteArgs {
     /// places the route takes the widest of them, and keeps off walls elsewhere (rule wave).
     #[arg(long, value_name = "M", allow_negative_numbers = true)]
     pub(crate) clearance: Option<f64>,
-    /// The robot; without it a small one with wheels of 0.2 m perimeter
+    /// The robot, for its program and its certificate; without it a small one with wheels of 0.2 m perimeter
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) robot: Option<PathBuf>,
+    /// Which of the routes to take (rule wave)
+    #[arg(long, value_enum, default_value_t, requires_if("trusted", "robot"))]
+    pub(crate) prefer: PreferArg,
+    /// The probability of being in its cell below which the robot is not trusted, 0 to 1
+    #[arg(long, value_name = "P", requires = "robot", default_value_t = 0.95, allow_negative_numbers = true, value_parser = share)]
+    pub(crate) trust: f64,
     /// Where the robot faces: N, E, S, W; on hexagons NE, E, SE, SW, W, NW [default: along its first run]
     #[arg(long, value_name = "DIR")]
     pub(crate) heading: Option<String>,
@@ -316,6 +323,17 @@ impl From<RuleArg> for Rule {
             RuleArg::Wave => Self::Wave,
         }
     }
+}
+
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PreferArg {
+    /// Any shortest route
+    Short,
+    /// A shortest route with the fewest turns
+    #[default]
+    FewTurns,
+    /// The route whose worst waypoint the robot reaches most surely, which may be longer
+    Trusted,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]

@@ -1,11 +1,13 @@
 //! `activecell route`: one robot, from here to there.
 
 use super::Done;
+use super::certificate::{COLUMN_HEADS, Certified};
 use super::load::{self, Loaded};
-use crate::args::{DrawArg, RouteArgs, WrongArgument, heading};
+use crate::args::{DrawArg, PreferArg, RouteArgs, WrongArgument, heading};
 use crate::terminal::Terminal;
 use activecell::{
-    Cell, Dir, Field, Map, Outcome, Program, Robot, Route, Rule, Terrain, WeightedField, check_program,
+    Cell, Dir, Field, Map, Outcome, Program, Region, Robot, Route, Rule, Terrain, WeightedField,
+    check_program,
 };
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
@@ -21,6 +23,8 @@ struct Solved {
     map: Map,
     floor: Option<Map>,
     robot: Robot,
+    /// Of the user's own robot, if it arrives.
+    certified: Option<Certified>,
     /// The robot is the user's own, not the default one.
     own_robot: bool,
     from: Cell,
@@ -70,6 +74,7 @@ impl Flooded {
 
 pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done> {
     let pictures = pictures(args)?;
+    check_preference(args)?;
     let solved = solve(args, terminal)?;
     if let Some(path) = &args.save {
         let text = run_file::write(&solved.map, &solved.robot, solved.from, solved.to, &solved.report)?;
@@ -78,7 +83,8 @@ pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done>
     let (title, turns) = (title(args, &solved), solved.turns());
     let time = |cell: Cell| solved.field.as_ref().and_then(|field| field.time(cell));
     let wave: Option<Wave<'_>> = if solved.field.is_some() { Some(&time) } else { None };
-    let picture = solved.picture(&title, &turns, wave);
+    let regions = solved.certified.as_ref().map(Certified::regions).unwrap_or_default();
+    let picture = solved.picture(&title, &turns, &regions, wave);
     for (path, kind) in pictures {
         let _working = terminal.working(format!("drawing {}", path.display()));
         let bytes = match kind {
@@ -120,6 +126,12 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     };
     let flooded = started.elapsed();
     let route = match &field {
+        Some(Flooded::Plain(field)) if args.prefer == PreferArg::Short => field.shortest_route(from),
+        Some(Flooded::Plain(field)) if args.prefer == PreferArg::Trusted => {
+            let trusted = field.trusted_route(&map, &robot, from, facing);
+            terminal.detail(&format!("chosen among {}", plural(trusted.candidates, "route")));
+            trusted.route
+        }
         Some(field) => field.route(from, &robot, facing),
         None => wanted.as_ref().map_or(&map, Terrain::map).route(rule, from, to, args.max_steps)?,
     };
@@ -132,7 +144,21 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     check_program(&map, &robot, &program, route.cells())?;
     let mut report = RouteReport::new(rule, &route, &program, &robot, &map, seconds);
     report.clearance_m = args.clearance.and_then(|_| map.clearance_m(route.cells()));
-    Ok(Solved { map, floor, robot, own_robot, from, to, field, route, program, report })
+    let certified = (own_robot && route.outcome() == Outcome::Arrived)
+        .then(|| Certified::new(&map, &robot, &program, args.trust));
+    report.certificate = certified.as_ref().map(Certified::report);
+    Ok(Solved { map, floor, robot, certified, own_robot, from, to, field, route, program, report })
+}
+
+/// Only the wave leaves a choice, and keeping off walls makes it.
+fn check_preference(args: &RouteArgs) -> Result<(), WrongArgument> {
+    let wrong = |what: &str| Err(WrongArgument(format!("--prefer short and trusted need {what}")));
+    match args.prefer {
+        PreferArg::FewTurns => Ok(()),
+        _ if Rule::from(args.rule) != Rule::Wave => wrong("the rule wave; leave out --rule"),
+        _ if args.clearance.is_some() => wrong("a free choice of the way; leave out --clearance"),
+        _ => Ok(()),
+    }
 }
 
 /// The result for people.
@@ -166,18 +192,23 @@ fn text(solved: &Solved) -> String {
     if solved.own_robot {
         text += &format!("driving takes about {:.0} s and {:.0} J\n", report.drive_s, report.energy_j);
     }
-    if let Some(heading) = report.heading {
-        text += &format!("\nstart at {}, facing {heading}\n", solved.from);
-        text += "  drive to        revolutions   then turn\n";
+    if let Some(certified) = &solved.certified {
+        text += &certified.text();
     }
-    for waypoint in program.waypoints.iter().take(PRINTED_WAYPOINTS) {
+    if let Some(heading) = report.heading {
+        let more = if solved.certified.is_some() { COLUMN_HEADS } else { "" };
+        text += &format!("\nstart at {}, facing {heading}\n", solved.from);
+        text += &format!("  drive to        revolutions   then turn{more}\n");
+    }
+    for (i, waypoint) in program.waypoints.iter().enumerate().take(PRINTED_WAYPOINTS) {
         let turn = match waypoint.turn_deg {
             0 => String::new(),
             turn if turn > 0 => format!("{turn}° right"),
             turn => format!("{}° left", -turn),
         };
         let cell = waypoint.cell.to_string();
-        let line = format!("  {cell:<14}  {:>11.3}   {turn}", waypoint.revolutions);
+        let trust = solved.certified.as_ref().map_or_else(String::new, |certified| certified.columns(i));
+        let line = format!("  {cell:<14}  {:>11.3}   {turn:<9}{trust}", waypoint.revolutions);
         text += &format!("{}\n", line.trim_end());
     }
     if let Some(more) = program.waypoints.len().checked_sub(PRINTED_WAYPOINTS).filter(|&more| more > 0) {
@@ -220,7 +251,13 @@ impl Solved {
         waypoints.filter(|waypoint| waypoint.turn_deg != 0).map(|waypoint| waypoint.cell).collect()
     }
 
-    fn picture<'a>(&'a self, title: &'a str, turns: &'a [Cell], wave: Option<Wave<'a>>) -> RoutePicture<'a> {
+    fn picture<'a>(
+        &'a self,
+        title: &'a str,
+        turns: &'a [Cell],
+        regions: &'a [Region],
+        wave: Option<Wave<'a>>,
+    ) -> RoutePicture<'a> {
         RoutePicture {
             map: &self.map,
             floor: self.floor.as_ref(),
@@ -230,6 +267,7 @@ impl Solved {
             cells: self.route.cells(),
             turns,
             cycle: self.route.cycle(),
+            regions,
             wave,
         }
     }

@@ -3,8 +3,10 @@
 mod check;
 mod clear;
 mod downhill;
+mod priced;
 
 pub use check::{RouteFault, check_route, check_terrain_route};
+pub(crate) use priced::STEP;
 
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
