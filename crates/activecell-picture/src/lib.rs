@@ -33,6 +33,7 @@
 mod animation;
 mod colour;
 mod control;
+mod drives;
 mod figure;
 mod font;
 mod layout;
@@ -47,6 +48,7 @@ mod svg;
 mod terminal;
 
 use activecell::{Cell, Map};
+pub use drives::{DrivePanel, drives_png, drives_svg};
 use figure::Figure;
 
 /// When the wave from the target reached a cell; `None` where it did not come.

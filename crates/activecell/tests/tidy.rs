@@ -7,8 +7,20 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 11] =
-    ["rng", "lattice", "error", "map", "rule", "wave", "search", "route", "embedded", "program", "control"];
+const LAYERS: [&str; 12] = [
+    "rng",
+    "lattice",
+    "error",
+    "map",
+    "rule",
+    "wave",
+    "search",
+    "route",
+    "embedded",
+    "program",
+    "control",
+    "calibrate",
+];
 const MAX_LINES: usize = 600;
 
 fn root() -> PathBuf {
