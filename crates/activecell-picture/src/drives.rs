@@ -30,6 +30,8 @@ const HEAD: f64 = 46.0;
 const FOOT: f64 = 26.0;
 const SIDE: f64 = 16.0;
 const TOP: f64 = 74.0;
+/// A panel shows so many metres at least.
+const LEAST_M: f64 = 0.1;
 
 /// The panels as an SVG document; at most 60 of them.
 ///
@@ -130,7 +132,8 @@ fn draw(shapes: &mut Vec<Shape>, [x, y]: Point, panel: &DrivePanel<'_>) {
         return;
     }
     let tall = PANEL[1] - HEAD - FOOT;
-    let size = [(high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3)];
+    // A turn in place is a point, not a picture of the noise of a position.
+    let size = [(high[0] - low[0]).max(LEAST_M), (high[1] - low[1]).max(LEAST_M)];
     let px_per_m = (room / size[0]).min(tall / size[1]);
     let middle = [x + PANEL[0] / 2.0, y + HEAD + tall / 2.0];
     let place = |point: &PointM| -> Point {

@@ -1,6 +1,6 @@
 //! The fit: wheels and noise that make the logs most likely, and how sure that is.
 
-use super::algebra::{Matrix, Vector, apply, diagonal, inverse, plus};
+use super::algebra::{Matrix, Vector, ZERO, apply, diagonal, inverse, plus, scaled};
 use super::log::{DriveLog, TruthNoise};
 use super::sweep::{Gate, Noise, Sums, Window, cuts, roughness, sweep, windows};
 use crate::error::Error;
@@ -14,7 +14,11 @@ const WINDOW_M: f64 = 1.0;
 const BEFORE: Vector = [0.05, 0.02, 0.1];
 const MAX_ROUNDS: usize = 40;
 /// The fit has come to rest when no parameter moves by more.
-const AT_REST: f64 = 1e-9;
+const AT_REST: f64 = 1e-7;
+/// A measured pose that is off by more variances is left out: one of 50,000 good ones is.
+const GATE: f64 = 24.8;
+/// But no more than the worst poses beyond this share: where many are off, it is the wheels that are wrong yet.
+const GOOD_SHARE: f64 = 0.85;
 /// Median of the χ² distribution with three degrees of freedom.
 const MEDIAN_3: f64 = 2.366;
 
@@ -24,9 +28,9 @@ pub struct Calibration {
     /// The robot with the wheels of the fit and, in its `errors`, with their deviations, the unevenness of the floor
     /// and what that makes of a turn by 90°.
     pub robot: Robot,
-    /// Deviations by the fit alone: relative perimeter, difference, relative track.
+    /// Deviations of the fitted mean: relative perimeter, difference, relative track.
     pub fit_rel: [f64; 3],
-    /// How much sessions differ beyond that: load, floor, air in the tyres. 0 if there is but one session.
+    /// How much sessions differ: load, floor, air in the tyres. 0 if there is but one session, or none can be seen.
     pub between_sessions_rel: [f64; 3],
     /// The noise of the ground truth. Zero where no log has more than two measured poses: then it counts as the
     /// floor's.
@@ -39,11 +43,11 @@ pub struct Calibration {
 
 /// Fits the wheels and the noise of a differential robot to logs in sessions.
 ///
-/// A session is what was driven at one time with one load on one floor. Perimeter, difference and track are fitted
-/// by Gauss and Newton's method to all measured poses along all logs, each weighted by what the noise lets expect
-/// there; the noises (uneven floor, ground truth) by the greatest likelihood of the same differences. The deviations
-/// are those of the fit and how much the sessions differ, as a session to come will (`DerSimonian` and Laird,
-/// *Meta-analysis in clinical trials*, 1986).
+/// A session is what was driven at one time with one load on one floor. Perimeter, difference and track of each are
+/// fitted by Gauss and Newton's method to the measured poses along all its logs, weighted by what the noise lets
+/// expect there; the noises (uneven floor, ground truth) by the greatest likelihood of all sessions' differences.
+/// The robot's wheels are the mean of the sessions', its deviations those of the mean and how much sessions differ,
+/// as one to come will (`DerSimonian` and Laird, *Meta-analysis in clinical trials*, 1986).
 ///
 /// # Errors
 /// [`Error::BadLog`] if the robot's drive is steered, there is no log, or nothing moved.
@@ -77,16 +81,17 @@ pub fn calibrate(sessions: &[&[DriveLog]], nominal: &Robot) -> Result<Calibratio
     {
         return refuse("the encoders count nothing in any log; give logs of a robot that drives");
     }
-    let mut left_out = Vec::new();
-    for _ in 0..MAX_ROUNDS {
-        let step = fit.round();
-        let now: Vec<bool> = fit.logs.iter().flat_map(|log| log.used.iter().copied()).collect();
-        if step < AT_REST && now == left_out {
-            break;
+    let mut used = Vec::new();
+    let mut rounds = 0;
+    loop {
+        let (moved, noise) = fit.round();
+        rounds += 1;
+        let now: Vec<bool> = fit.logs.iter().flat_map(|piece| piece.used.iter().copied()).collect();
+        if rounds == MAX_ROUNDS || (moved < AT_REST && now == used) {
+            return Ok(fit.result(noise));
         }
-        left_out = now;
+        used = now;
     }
-    Ok(fit.result(sessions.len()))
 }
 
 /// One log in the fit.
@@ -100,12 +105,14 @@ struct Piece<'a> {
 
 struct Fit<'a> {
     nominal: Robot,
-    /// Relative perimeter, difference and relative track beyond those of the nominal robot.
-    wheels: Vector,
+    /// Of each session: relative perimeter, difference and relative track beyond those of the nominal robot.
+    wheels: Vec<Vector>,
     logs: Vec<Piece<'a>>,
     /// The least noise of a measured pose: encoders tell no less than a tick.
     tick: Noise,
     noise: Option<Noise>,
+    /// Variances by which a measured pose may be off.
+    gate: f64,
     /// Some log has measured poses on its way, which tell the noise of the truth from that of the floor.
     tells_truth: bool,
 }
@@ -126,12 +133,19 @@ impl<'a> Fit<'a> {
             }
         }
         let tells_truth = logs.iter().any(|piece| piece.cuts.len() > 2);
-        Self { nominal: *nominal, wheels: [0.0; 3], logs, tick, noise: None, tells_truth }
+        Self {
+            nominal: *nominal,
+            wheels: vec![[0.0; 3]; sessions.len()],
+            logs,
+            tick,
+            noise: None,
+            gate: GATE,
+            tells_truth,
+        }
     }
 
     /// The nominal robot with other wheels.
-    fn robot(&self) -> Robot {
-        let [perimeter, difference, track] = self.wheels;
+    fn robot(&self, [perimeter, difference, track]: Vector) -> Robot {
         Robot {
             wheel_perimeter_m: self.nominal.wheel_perimeter_m * (1.0 + perimeter),
             wheel_difference_rel: self.nominal.wheel_difference_rel + difference,
@@ -140,40 +154,46 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// One step of the wheels and the noise; how far the wheels moved.
-    fn round(&mut self) -> f64 {
-        let robot = self.robot();
+    /// One step of every session's wheels and of the noise; how far the wheels moved at the most.
+    fn round(&mut self) -> (f64, Noise) {
+        let robots: Vec<Robot> = self.wheels.iter().map(|&wheels| self.robot(wheels)).collect();
         for piece in &mut self.logs {
-            piece.windows = windows(piece.log, &piece.cuts, &robot);
+            piece.windows = windows(piece.log, &piece.cuts, &robots[piece.session]);
         }
         let noise = self.noise.unwrap_or_else(|| self.first_noise());
         let seen = self.with_ticks(&noise);
+        let mut all = Vec::new();
         for piece in &mut self.logs {
-            piece.used.clear();
-            sweep(piece.log.start(), &piece.windows, &seen, Gate::Judge(&mut piece.used));
+            let mut squared = Vec::with_capacity(piece.windows.len());
+            sweep(piece.log.start(), &piece.windows, &seen, Gate::Judge(self.gate, &mut squared));
+            piece.used = squared.iter().map(|&squared| squared <= self.gate).collect();
+            all.append(&mut squared);
         }
-        let noise = self.likeliest(noise);
+        self.gate = share_of(&mut all, GOOD_SHARE).max(GATE);
+        let noise = self.likeliest(noise, if self.noise.is_none() { 1.0 } else { 0.1 });
         self.noise = Some(noise);
-        let sums = self.sums(&noise, |_| true);
-        let before = diagonal(BEFORE.map(|deviation| deviation.powi(-2)));
-        let information = plus(&sums.information, &before);
-        let pull: Vector = std::array::from_fn(|i| sums.pull[i] - self.wheels[i] * before[i][i]);
-        let Some(spread) = inverse(&information) else { return 0.0 };
-        // The columns are by relative changes of the robot as it is now; both are one but for their squares.
-        let step = apply(&spread, &pull);
-        let old = self.wheels;
-        self.wheels = std::array::from_fn(|i| (old[i] + step[i].clamp(-0.1, 0.1)).clamp(-0.5, 0.5));
-        (0..3).map(|i| (self.wheels[i] - old[i]).abs()).fold(0.0, f64::max)
+        let mut moved: f64 = 0.0;
+        for session in 0..self.wheels.len() {
+            let sums = self.sums(&noise, |other| other == session);
+            let old = self.wheels[session];
+            let before = before();
+            let pull: Vector = std::array::from_fn(|i| sums.pull[i] - old[i] * before[i][i]);
+            let Some(spread) = inverse(&plus(&sums.information, &before)) else { continue };
+            let step = apply(&spread, &pull);
+            let new: Vector = std::array::from_fn(|i| (old[i] + step[i].clamp(-0.1, 0.1)).clamp(-0.5, 0.5));
+            moved = (0..3).map(|i| (new[i] - old[i]).abs()).fold(moved, f64::max);
+            self.wheels[session] = new;
+        }
+        (moved, noise)
     }
 
     /// From the median window, so that a few wrong poses do not matter.
-    fn first_noise(&self) -> Noise {
+    fn first_noise(&mut self) -> Noise {
         let each =
             self.logs.iter().flat_map(|piece| roughness(piece.log.start(), &piece.windows, &self.tick));
         let mut squared: Vec<f64> = each.collect();
-        squared.sort_by(f64::total_cmp);
-        let median = squared.get(squared.len() / 2).copied().unwrap_or(1.0);
-        let unevenness = (median / MEDIAN_3).sqrt().clamp(1e-6, 0.1);
+        let unevenness = (share_of(&mut squared, 0.5) / MEDIAN_3).sqrt().clamp(1e-6, 0.1);
+        self.gate = (share_of(&mut squared, GOOD_SHARE) / unevenness.powi(2)).max(GATE);
         let (position, bearing) = if self.tells_truth { (1e-3, 3e-3) } else { (0.0, 0.0) };
         Noise { unevenness, position, bearing }
     }
@@ -196,7 +216,7 @@ impl<'a> Fit<'a> {
 
     /// The likeliest noises, by trying steps of their logarithms that become shorter (Hooke and Jeeves, *Direct
     /// Search*, 1961).
-    fn likeliest(&self, from: Noise) -> Noise {
+    fn likeliest(&self, from: Noise, step: f64) -> Noise {
         let unlikely = |noise: &Noise| self.sums(noise, |_| true).unlikely;
         let tried = |noise: &Noise, which: usize, factor: f64| {
             let mut noise = *noise;
@@ -208,8 +228,8 @@ impl<'a> Fit<'a> {
             noise
         };
         let (mut best, mut least) = (from, unlikely(&from));
-        let mut step = 1.0_f64;
-        while step > 2e-3 {
+        let mut step = step;
+        while step > 4e-3 {
             let before = least;
             for which in 0..if self.tells_truth { 3 } else { 1 } {
                 for factor in [step.exp(), (-step).exp()] {
@@ -228,51 +248,64 @@ impl<'a> Fit<'a> {
         best
     }
 
-    fn result(&self, sessions: usize) -> Calibration {
-        let noise = self.noise.unwrap_or_else(|| self.first_noise());
-        let sums = self.sums(&noise, |_| true);
-        // Three parameters took part of the differences away.
-        let seen = 3.0 * sums.used as f64;
-        let lost = if seen > 3.0 { (seen / (seen - 3.0)).sqrt() } else { 1.0 };
-        let unevenness = noise.unevenness * lost;
-        let before = diagonal(BEFORE.map(|deviation| deviation.powi(-2)));
-        let spread = inverse(&plus(&sums.information, &before));
-        let spread = spread.unwrap_or(diagonal(BEFORE.map(|deviation| deviation.powi(2))));
-        let fit_rel: Vector = std::array::from_fn(|i| spread[i][i].sqrt() * lost);
-        let between = self.between_sessions(&noise, sessions);
-        let count = sessions.max(1) as f64;
-        let whole: Vector = std::array::from_fn(|i| {
-            // A session to come differs from the mean of these by its own part and by the mean's.
-            (fit_rel[i].powi(2) + between[i].powi(2) * (1.0 + 1.0 / count)).sqrt().min(0.3)
-        });
-        let mut robot = self.robot();
-        robot.errors.wheel_perimeter_rel = whole[0];
-        robot.errors.wheel_difference_rel = whole[1];
-        robot.errors.track_rel = whole[2];
-        robot.errors.unevenness_m_per_sqrt_m = unevenness;
-        // Each wheel rolls a quarter of π × track in a turn by 90°.
-        robot.errors.turn_rad = unevenness * (PI / (2.0 * robot.track_m)).sqrt();
-        let truth = TruthNoise { position_m: noise.position, bearing_rad: noise.bearing };
-        let all: usize = self.logs.iter().map(|piece| piece.used.len()).sum();
-        let (poses, left_out) = (sums.used, all - sums.used);
-        Calibration { robot, fit_rel, between_sessions_rel: between, truth, poses, left_out }
-    }
-
-    /// How much sessions differ in each parameter beyond what their own fits let expect.
-    fn between_sessions(&self, noise: &Noise, sessions: usize) -> Vector {
-        let each: Vec<(Vector, Matrix)> = (0..sessions)
+    fn result(&self, noise: Noise) -> Calibration {
+        let used = self.sums(&noise, |_| true).used;
+        // Three parameters a session took part of the differences away.
+        let (seen, taken) = (3.0 * used as f64, 3.0 * self.wheels.len() as f64);
+        let lost = if seen > taken { (seen / (seen - taken)).sqrt() } else { 1.0 };
+        let each: Vec<(Vector, Matrix)> = (0..self.wheels.len())
             .filter_map(|session| {
-                let sums = self.sums(noise, |other| other == session);
-                let before = diagonal(BEFORE.map(|deviation| deviation.powi(-2)));
-                let spread = inverse(&plus(&sums.information, &before))?;
-                Some((apply(&spread, &sums.pull), spread))
+                let sums = self.sums(&noise, |other| other == session);
+                let spread = inverse(&plus(&sums.information, &before()))?;
+                Some((self.wheels[session], scaled(&spread, lost * lost)))
             })
             .collect();
-        std::array::from_fn(|i| {
-            let fits: Vec<(f64, f64)> = each.iter().map(|(at, spread)| (at[i], 1.0 / spread[i][i])).collect();
+        let between = std::array::from_fn(|i| {
+            let fits: Vec<_> = each.iter().map(|(wheels, spread)| (wheels[i], 1.0 / spread[i][i])).collect();
             beyond(&fits)
-        })
+        });
+        let (wheels, spread) = together(&each, between);
+        let fit_rel = std::array::from_fn(|i| spread[i][i].sqrt());
+        let mut robot = self.robot(wheels);
+        // A session to come differs from the mean of these by its own part and by the mean's error.
+        let whole = |i: usize| between[i].hypot(fit_rel[i]).min(0.3);
+        robot.errors.wheel_perimeter_rel = whole(0);
+        robot.errors.wheel_difference_rel = whole(1);
+        robot.errors.track_rel = whole(2);
+        robot.errors.unevenness_m_per_sqrt_m = noise.unevenness * lost;
+        // Each wheel rolls a quarter of π × track in a turn by 90°.
+        robot.errors.turn_rad = noise.unevenness * lost * (PI / (2.0 * robot.track_m)).sqrt();
+        let truth = TruthNoise { position_m: noise.position, bearing_rad: noise.bearing };
+        let all: usize = self.logs.iter().map(|piece| piece.used.len()).sum();
+        let (poses, left_out) = (used, all - used);
+        Calibration { robot, fit_rel, between_sessions_rel: between, truth, poses, left_out }
     }
+}
+
+/// The number below which this share of the numbers lies; 1 if there is none.
+fn share_of(numbers: &mut [f64], share: f64) -> f64 {
+    numbers.sort_by(f64::total_cmp);
+    numbers.get((numbers.len() as f64 * share) as usize).copied().unwrap_or(1.0)
+}
+
+/// What is known before a log is seen, as information.
+fn before() -> Matrix {
+    diagonal(BEFORE.map(|deviation| deviation.powi(-2)))
+}
+
+/// The mean of the sessions' wheels and its covariance: each weighs by its own covariance and what sessions differ.
+fn together(each: &[(Vector, Matrix)], between: Vector) -> (Vector, Matrix) {
+    let differ = diagonal(between.map(|deviation| deviation.powi(2)));
+    let (mut weights, mut sum) = (ZERO, [0.0; 3]);
+    for (wheels, spread) in each {
+        let Some(weight) = inverse(&plus(spread, &differ)) else { continue };
+        let weighed = apply(&weight, wheels);
+        weights = plus(&weights, &weight);
+        sum = std::array::from_fn(|i| sum[i] + weighed[i]);
+    }
+    let unknown = diagonal(BEFORE.map(|deviation| deviation.powi(2)));
+    let spread = inverse(&weights).unwrap_or(unknown);
+    (apply(&spread, &sum), spread)
 }
 
 /// The deviation of values beyond their own, each with its weight 1 ÷ variance (`DerSimonian` and Laird, 1986).

@@ -8,9 +8,6 @@ use super::log::{DriveLog, wrapped};
 use super::odometry::Odometry;
 use crate::program::{Pose, Robot};
 
-/// A measured pose whose error is beyond this many variances is left out: one of 50,000 good ones is.
-const GATE: f64 = 24.8;
-
 /// The noises that make the measured poses differ from dead reckoning.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Noise {
@@ -114,8 +111,8 @@ impl Sums {
 
 /// Which measured poses a sweep uses.
 pub(super) enum Gate<'a> {
-    /// Those that are near enough to what was foretold; which ones is noted.
-    Judge(&'a mut Vec<bool>),
+    /// Those that are off by so many variances at the most; by how many each is off is noted.
+    Judge(f64, &'a mut Vec<f64>),
     /// Those noted before.
     As(&'a [bool]),
 }
@@ -145,13 +142,13 @@ pub(super) fn sweep(start: Pose, windows: &[Window], noise: &Noise, mut gate: Ga
         let off = [0, 1, 2].map(|k| window.truth[k] - at[k]);
         let off = [off[0], off[1], wrapped(off[2])];
         let spread = plus(&covariance, &measured);
-        let Some(certainty) = inverse(&spread) else { continue };
+        let certainty = inverse(&spread).unwrap_or(ZERO);
         let seen = apply(&certainty, &off);
         let squared = dot(&off, &seen);
         let good = match &mut gate {
-            Gate::Judge(used) => {
-                used.push(squared <= GATE);
-                squared <= GATE
+            Gate::Judge(most, noted) => {
+                noted.push(squared);
+                squared <= *most
             }
             Gate::As(used) => used[i],
         };
