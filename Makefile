@@ -47,6 +47,7 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
+	$(ACTIVECELL) calibrate logs/monday logs/tuesday logs/friday --robot logs/robot.toml --picture docs/pictures/calibration.svg > /dev/null
 
 bench:
 	@QUICK=$(QUICK) bench/run.sh

@@ -30,8 +30,12 @@ pub struct CalibrationReport {
     pub held_out: &'static str,
     /// The logs that the fit did not see.
     pub rows: Vec<HeldOutRow>,
+    /// The median nominal ÷ the median calibrated end error; null without rows.
+    pub median_end_error_falls: Option<f64>,
     /// The median of nominal ÷ calibrated end error; null without rows.
     pub end_error_falls: Option<f64>,
+    /// The median over sessions of the worst nominal ÷ the worst calibrated end error in it; null without rows.
+    pub worst_end_error_falls: Option<f64>,
     /// How many rows' real end lies in the 95 % region.
     pub inside: usize,
 }
@@ -39,6 +43,8 @@ pub struct CalibrationReport {
 /// A log that the fit did not see.
 #[derive(Debug, Clone, Serialize)]
 pub struct HeldOutRow {
+    /// Its session: the folder's name.
+    pub session: String,
     /// Its file.
     pub log: String,
     /// The way driven, in metres.
@@ -57,9 +63,10 @@ pub struct HeldOutRow {
 
 impl HeldOutRow {
     /// From the end errors of both robots.
-    pub fn new(log: String, nominal: &EndError, calibrated: &EndError) -> Self {
+    pub fn new(session: &str, log: &str, nominal: &EndError, calibrated: &EndError) -> Self {
         Self {
-            log,
+            session: session.to_owned(),
+            log: log.to_owned(),
             way_m: nominal.way_m,
             nominal_m: nominal.distance_m(),
             calibrated_m: calibrated.distance_m(),
@@ -68,6 +75,11 @@ impl HeldOutRow {
             inside: calibrated.inside(),
         }
     }
+}
+
+/// How many times an error falls.
+fn fall(from_m: f64, to_m: f64) -> f64 {
+    from_m / to_m.max(1e-9)
 }
 
 /// The middle of some numbers, the mean of both middles of an even count; `None` without any.
@@ -87,7 +99,12 @@ impl CalibrationReport {
         held_out: &'static str,
         rows: Vec<HeldOutRow>,
     ) -> Self {
-        let falls = rows.iter().map(|row| row.nominal_m / row.calibrated_m.max(1e-9));
+        let falls = rows.iter().map(|row| fall(row.nominal_m, row.calibrated_m));
+        // Rows of a session stand together.
+        let worst = rows.chunk_by(|a, b| a.session == b.session).map(|rows| {
+            let worst = |error: fn(&HeldOutRow) -> f64| rows.iter().map(error).fold(0.0, f64::max);
+            fall(worst(|row| row.nominal_m), worst(|row| row.calibrated_m))
+        });
         Self {
             logs,
             sessions,
@@ -100,7 +117,11 @@ impl CalibrationReport {
             truth_m: found.truth.position_m,
             truth_rad: found.truth.bearing_rad,
             held_out,
+            median_end_error_falls: median(rows.iter().map(|row| row.nominal_m))
+                .zip(median(rows.iter().map(|row| row.calibrated_m)))
+                .map(|(from_m, to_m)| fall(from_m, to_m)),
             end_error_falls: median(falls),
+            worst_end_error_falls: median(worst),
             inside: rows.iter().filter(|row| row.inside).count(),
             rows,
         }

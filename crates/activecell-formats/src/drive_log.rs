@@ -5,8 +5,10 @@ use activecell::{DriveLog, LogRow, Pose, Robot};
 use csv::{ByteRecord, ReaderBuilder};
 use std::fmt::Write as _;
 
-/// The longest log that is read, in bytes: days of driving.
-pub const MAX_LOG_BYTES: u64 = 64 << 20;
+/// The longest log that is read, in bytes.
+pub const MAX_LOG_BYTES: u64 = 32 << 20;
+/// The most rows of a log: half a day at 20 rows a second.
+pub const MAX_ROWS: usize = 1_000_000;
 /// The longest metadata file that is read.
 pub const MAX_METADATA_BYTES: u64 = 64 << 10;
 
@@ -62,6 +64,9 @@ pub fn read(bytes: &[u8]) -> Result<DriveLog, Error> {
         if record.len() != width {
             let reason = format!("the row has {} columns, the first line {width}", record.len());
             return Err(Error::line(line, format!("{reason}; make them agree")));
+        }
+        if rows.len() == MAX_ROWS {
+            return Err(Error::line(line, format!("more than {MAX_ROWS} rows; split the log")));
         }
         rows.push(row(&record, &places)?);
         lines.push(line);

@@ -262,6 +262,31 @@ fn read_ros(path: &Path, reading: ros::Reading) -> Result<Map, Error> {
     ros::to_map(&image, &yaml, &reading)
 }
 
+/// The logs that a path names: itself, or if it is a folder every `.csv` in it but metadata, by name.
+///
+/// # Errors
+/// [`Error::Io`]; [`Error::BadFormat`] for a folder without logs.
+pub fn drive_logs(path: &Path) -> Result<Vec<PathBuf>, Error> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let failed = |cause| Error::Io { path: path.to_owned(), action: "read", cause };
+    let mut logs = Vec::new();
+    for entry in fs::read_dir(path).map_err(failed)? {
+        let log = entry.map_err(failed)?.path();
+        let is_csv = log.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        let stem = log.file_stem().unwrap_or_default().to_string_lossy();
+        if is_csv && !stem.ends_with("_metadata") {
+            logs.push(log);
+        }
+    }
+    logs.sort();
+    if logs.is_empty() {
+        return Err(Error::file("the folder holds no .csv; name a log, or a folder of logs").in_file(path));
+    }
+    Ok(logs)
+}
+
 /// Reads an encoder log, and the robot of the `OptiOdom` metadata file beside it (`NAME_metadata.csv` for
 /// `NAME_run-01.csv`), if there is one.
 ///

@@ -88,7 +88,7 @@ fn the_wheels_are_found_within_their_stated_deviations() {
         let wheels = Wheels::drawn(&drawn, &mut rng);
         let logs = session(&nominal, wheels, 6, &mut rng);
         let found = calibrate(&[&logs], &nominal).unwrap();
-        assert_eq!(found.between_sessions_rel, [0.0; 3]);
+        assert!(found.between_sessions_rel.iter().all(|&rel| rel == 0.0));
         let real = [wheels.perimeter - 1.0, wheels.difference, wheels.track - 1.0];
         let fitted = relative(&found.robot, &nominal);
         for i in 0..3 {
@@ -239,7 +239,9 @@ fn columns_and_covariance_are_those_of_driven_robots() {
             (0..30).map(|_| [rng.below(2000), rng.below(2000)].map(|ticks| i64::from(ticks) - 600)).collect();
         let drive = |robot: &Robot| {
             let mut odometry = Odometry::new(Pose { at_m: [1.0, 2.0], bearing_rad: 0.3 });
-            steps.iter().for_each(|&ticks| odometry.advance(robot, ticks));
+            for &ticks in &steps {
+                odometry.advance(robot, ticks);
+            }
             odometry
         };
         let numbers = |robot: &Robot| {
@@ -265,11 +267,11 @@ fn columns_and_covariance_are_those_of_driven_robots() {
                 _ => errors.track_rel = 1.0,
             }
             let covariance = drive(&nominal).covariance(&errors);
-            for i in 0..3 {
-                for j in 0..3 {
+            for (i, row) in covariance.iter().enumerate() {
+                for (j, &entry) in row.iter().enumerate() {
                     let by = |k: usize| (plus[k] - minus[k]) / (2.0 * small);
                     let expected = by(i) * by(j);
-                    assert!((covariance[i][j] - expected).abs() < 1e-4 * (1.0 + expected.abs()), "{which}");
+                    assert!((entry - expected).abs() < 1e-4 * (1.0 + expected.abs()), "{which}");
                 }
             }
         }

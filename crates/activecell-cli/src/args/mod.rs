@@ -405,7 +405,9 @@ mod tests {
             .collect();
         for example in &examples {
             let arguments = example.split_whitespace().map(|word| match word {
-                path if path.starts_with("maps/") || path.starts_with("logs/") => format!("{project}/{path}"),
+                path if ["maps/", "logs/"].iter().any(|top| path.starts_with(top)) => {
+                    format!("{project}/{path}")
+                }
                 file if file.contains('.') && !file.starts_with(|c: char| c.is_ascii_digit()) => {
                     folder.join(file).display().to_string()
                 }

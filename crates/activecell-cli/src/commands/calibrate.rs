@@ -3,7 +3,7 @@
 use super::load;
 use crate::args::{CalibrateArgs, WrongArgument};
 use crate::terminal::Terminal;
-use activecell::{Calibration, DriveLog, EndError, PointM, Robot, calibrate};
+use activecell::{Calibration, DriveLog, EndError, PointM, Robot, TruthNoise, calibrate};
 use activecell_formats::calibration::{CalibrationReport, HeldOutRow, diff_drive_yaml, median};
 use activecell_formats::{files, robot};
 use activecell_picture::{DrivePanel, drives_png, drives_svg};
@@ -14,6 +14,12 @@ struct Session {
     folder: PathBuf,
     names: Vec<String>,
     logs: Vec<DriveLog>,
+}
+
+impl Session {
+    fn name(&self) -> String {
+        self.folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    }
 }
 
 /// A log and the robot of a fit that did not see it.
@@ -31,8 +37,8 @@ pub(crate) fn run(args: &CalibrateArgs, terminal: &Terminal) -> anyhow::Result<(
     let mut metadata = None;
     let sessions = read(&args.logs, &mut metadata, terminal)?;
     let others = read(&args.hold_out, &mut metadata, terminal)?;
-    let given = args.robot.as_deref().map(load::robot).transpose()?;
-    let Some(nominal) = given.or(metadata) else {
+    let given = args.robot.as_deref().map(load::robot_and_text).transpose()?;
+    let Some(nominal) = given.as_ref().map(|given| given.0).or(metadata) else {
         return Err(WrongArgument(format!(
             "{} does not say which robot drove; give --robot FILE.toml with its ticks_per_rev and, roughly, wheel_perimeter_m and track_m",
             args.logs[0].display()
@@ -41,10 +47,10 @@ pub(crate) fn run(args: &CalibrateArgs, terminal: &Terminal) -> anyhow::Result<(
     };
     let fitted: Vec<&[DriveLog]> = sessions.iter().map(|session| session.logs.as_slice()).collect();
     let found = calibrate(&fitted, &nominal)?;
-    let (held_out, judged) = hold_out(&sessions, &others, &nominal, &found, terminal)?;
+    let (held_out, judged) = hold_out(args, &sessions, &others, &nominal, &found, terminal)?;
 
     if let Some(path) = &args.output {
-        let text = args.robot.as_deref().map(std::fs::read_to_string).transpose()?.unwrap_or_default();
+        let text = given.map(|given| given.1).unwrap_or_default();
         files::write_atomically(path, robot::update(&text, &found.robot)?.as_bytes())?;
     }
     if let (Some(path), Some(draw)) = (&args.picture, draw) {
@@ -67,9 +73,11 @@ fn read(
     metadata: &mut Option<Robot>,
     terminal: &Terminal,
 ) -> anyhow::Result<Vec<Session>> {
+    let lists = paths.iter().map(|path| files::drive_logs(path)).collect::<Result<Vec<_>, _>>()?;
+    let paths = lists.concat();
     let bar = terminal.counting(paths.len() as u64, "reading logs");
     let mut sessions: Vec<Session> = Vec::new();
-    for path in paths {
+    for path in &paths {
         let (log, robot) = files::read_drive_log(path)?;
         if let Some(robot) = robot
             && *metadata.get_or_insert(robot) != robot
@@ -79,6 +87,7 @@ fn read(
         }
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        // Names of the OptiOdom data set begin with their folder's.
         let name = match folder.file_name().map(|name| name.to_string_lossy()) {
             Some(folder) if !stem.starts_with(&*folder) => format!("{folder}/{stem}"),
             _ => stem,
@@ -97,6 +106,7 @@ fn read(
 
 /// Judges each log by a fit that did not see it, or its session.
 fn hold_out<'a>(
+    args: &CalibrateArgs,
     sessions: &'a [Session],
     others: &'a [Session],
     nominal: &Robot,
@@ -105,8 +115,10 @@ fn hold_out<'a>(
 ) -> anyhow::Result<(&'static str, Vec<Judged<'a>>)> {
     let judge = |session: &'a Session, which: usize, found: &Calibration| {
         let log = &session.logs[which];
-        let ends = [nominal, &found.robot].map(|robot| -> EndError { log.end_error(robot, found.truth) });
-        let row = HeldOutRow::new(session.names[which].clone(), &ends[0], &ends[1]);
+        // A fit on other logs cannot know how far off the marker was on these.
+        let truth = TruthNoise { position_m: found.truth.position_m.max(args.truth), ..found.truth };
+        let ends = [nominal, &found.robot].map(|robot| -> EndError { log.end_error(robot, truth) });
+        let row = HeldOutRow::new(&session.name(), &session.names[which], &ends[0], &ends[1]);
         Judged { log, robot: found.robot, row }
     };
     if !others.is_empty() {
@@ -228,7 +240,7 @@ fn text(report: &CalibrationReport, found: &Calibration, nominal: &Robot) -> Str
 }
 
 fn indented(text: &str) -> String {
-    text.lines().map(|line| format!("  {line}\n")).collect()
+    text.lines().flat_map(|line| ["  ", line, "\n"]).collect()
 }
 
 /// How well it holds on logs that the fit did not see.
@@ -255,13 +267,22 @@ fn held_out_text(report: &CalibrationReport) -> String {
         );
     }
     let middle = |number: fn(&HeldOutRow) -> f64| median(report.rows.iter().map(number)).unwrap_or(0.0);
+    let falls = |falls: Option<f64>| falls.unwrap_or(0.0);
     text += &format!(
-        "\nmedian end error {:.1} → {:.1} mm, it falls {:.1} times (median); {} of {} ends inside their 95 % region\n",
+        "\nmedian end error {:.1} → {:.1} mm: falls {:.1} times\n",
         middle(|row| row.nominal_m) * 1e3,
         middle(|row| row.calibrated_m) * 1e3,
-        report.end_error_falls.unwrap_or(0.0),
-        report.inside,
-        report.rows.len()
+        falls(report.median_end_error_falls),
     );
-    text
+    text += &format!(
+        "in the median log it falls {:.1} times; the worst one of a session falls {:.1} times in the median session\n",
+        falls(report.end_error_falls),
+        falls(report.worst_end_error_falls)
+    );
+    text += &format!(
+        "median heading error {:.2}° → {:.2}°\n",
+        middle(|row| row.nominal_rad.abs()).to_degrees(),
+        middle(|row| row.calibrated_rad.abs()).to_degrees(),
+    );
+    text + &format!("{} of {} ends inside their 95 % region\n", report.inside, report.rows.len())
 }
