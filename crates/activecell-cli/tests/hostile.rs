@@ -144,6 +144,8 @@ fn bad_logs_get_one_clear_line() {
         ("calibrate binary.txt", 1, "binary.txt"),
         ("calibrate empty.txt", 1, "empty.txt: the log needs two poses"),
         ("calibrate /dev/zero", 1, "the file has more than 33554432 bytes"),
+        ("calibrate ok.csv -o ok.csv", 2, "ok.csv is a log; give another name to write to"),
+        ("calibrate ok.csv --hold-out ok.csv", 2, "the fit sees ok, so it cannot be held out"),
         ("calibrate missing.csv", 1, "missing.csv: there is no such file"),
         ("calibrate ok.csv", 2, "ok.csv does not say which robot drove; give --robot"),
         ("calibrate ok.csv --robot steered.toml", 1, "of a steered robot only the perimeter shows in a log"),

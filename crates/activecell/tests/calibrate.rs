@@ -330,3 +330,30 @@ fn what_cannot_be_fitted_is_told() {
         found.robot.wheel_perimeter_m / found.robot.track_m * nominal.track_m / nominal.wheel_perimeter_m;
     assert!((turn * 1.02 - 1.0).abs() < 0.01, "{found:?}");
 }
+
+#[test]
+fn logs_of_nonsense_neither_panic_nor_hang() {
+    let mut rng = Rng::new(9);
+    let (mut fitted, mut refused) = (0, 0);
+    for trial in 0..300 {
+        let size = 10.0_f64.powi(rng.below(12) as i32 - 3);
+        let rows = (0..2 + rng.below(30)).map(|i| {
+            let pose =
+                Pose { at_m: [size * rng.normal(), size * rng.normal()], bearing_rad: size * rng.normal() };
+            let ticks = [size, 10.0 * size].map(|size| (size * rng.normal()) as i64);
+            let truth = (i == 0 || rng.chance(0.7)).then_some(pose);
+            LogRow { time_s: f64::from(i), truth, ticks: if trial % 5 == 0 { [0, ticks[1]] } else { ticks } }
+        });
+        let Ok(log) = DriveLog::new(rows.collect()) else { continue };
+        match calibrate(&[std::slice::from_ref(&log), &[], &[log.clone(), log.clone()]], &robot(0.001)) {
+            Ok(found) => {
+                let off = [found.fit_rel, found.between_sessions_rel].concat();
+                assert!(off.iter().all(|number| number.is_finite()), "{found:?}");
+                fitted += 1;
+            }
+            Err(_) => refused += 1,
+        }
+    }
+    println!("{fitted} fitted, {refused} refused");
+    assert!(fitted > 100);
+}

@@ -20,6 +20,12 @@ impl Session {
     fn name(&self) -> String {
         self.folder.file_name().unwrap_or_default().to_string_lossy().into_owned()
     }
+
+    /// A log of this session that one of the others holds too.
+    fn seen_in(&self, others: &[Self]) -> Option<&str> {
+        let same = others.iter().find(|other| other.folder == self.folder)?;
+        self.names.iter().find(|name| same.names.contains(name)).map(String::as_str)
+    }
 }
 
 /// A log and the robot of a fit that did not see it.
@@ -37,6 +43,19 @@ pub(crate) fn run(args: &CalibrateArgs, terminal: &Terminal) -> anyhow::Result<(
     let mut metadata = None;
     let sessions = read(&args.logs, &mut metadata, terminal)?;
     let others = read(&args.hold_out, &mut metadata, terminal)?;
+    if let Some(seen) = others.iter().find_map(|other| other.seen_in(&sessions)) {
+        return Err(
+            WrongArgument(format!("the fit sees {seen}, so it cannot be held out; name it once")).into()
+        );
+    }
+    let written = args.output.iter().chain(&args.picture);
+    if let Some(path) =
+        written.into_iter().find(|path| args.logs.iter().chain(&args.hold_out).any(|log| log == *path))
+    {
+        return Err(
+            WrongArgument(format!("{} is a log; give another name to write to", path.display())).into()
+        );
+    }
     let given = args.robot.as_deref().map(load::robot_and_text).transpose()?;
     let Some(nominal) = given.as_ref().map(|given| given.0).or(metadata) else {
         return Err(WrongArgument(format!(

@@ -50,7 +50,8 @@ pub struct Calibration {
 /// as one to come will (`DerSimonian` and Laird, *Meta-analysis in clinical trials*, 1986).
 ///
 /// # Errors
-/// [`Error::BadLog`] if the robot's drive is steered, there is no log, or nothing moved.
+/// [`Error::BadLog`] if the robot's drive is steered, there is no log, or nothing moved; [`Error::BadValue`] if the
+/// logs ask for a robot that cannot be.
 ///
 /// ```
 /// use activecell::{DriveLog, LogRow, Pose, Robot, calibrate};
@@ -88,7 +89,8 @@ pub fn calibrate(sessions: &[&[DriveLog]], nominal: &Robot) -> Result<Calibratio
         rounds += 1;
         let now: Vec<bool> = fit.logs.iter().flat_map(|piece| piece.used.iter().copied()).collect();
         if rounds == MAX_ROUNDS || (moved < AT_REST && now == used) {
-            return Ok(fit.result(noise));
+            let found = fit.result(noise);
+            return Ok(Calibration { robot: found.robot.checked()?, ..found });
         }
         used = now;
     }
@@ -241,7 +243,8 @@ impl<'a> Fit<'a> {
                     }
                 }
             }
-            if before - least <= 1e-6 * before.abs() {
+            let gained = before - least > 1e-6 * before.abs();
+            if !gained {
                 step /= 2.0;
             }
         }
@@ -261,7 +264,10 @@ impl<'a> Fit<'a> {
             })
             .collect();
         let between = std::array::from_fn(|i| {
-            let fits: Vec<_> = each.iter().map(|(wheels, spread)| (wheels[i], 1.0 / spread[i][i])).collect();
+            // A session that tells next to nothing of a parameter is no witness of how sessions differ.
+            let tells = |spread: &Matrix| spread[i][i] < 0.25 * BEFORE[i].powi(2);
+            let each = each.iter().filter(|(_, spread)| tells(spread));
+            let fits: Vec<_> = each.map(|(wheels, spread)| (wheels[i], 1.0 / spread[i][i])).collect();
             beyond(&fits)
         });
         let (wheels, spread) = together(&each, between);
