@@ -49,6 +49,7 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/office.yaml --cell 0.5 --from 1.2m,1.5m --to 19m,11m --robot maps/robot.toml --draw never --picture docs/pictures/certificate.png -q > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
 	cargo run -q -p activecell-picture --example prediction > docs/pictures/prediction.svg
+	$(ACTIVECELL) calibrate logs/monday logs/tuesday logs/friday --robot logs/robot.toml --picture docs/pictures/calibration.svg > /dev/null
 
 bench:
 	@QUICK=$(QUICK) bench/run.sh

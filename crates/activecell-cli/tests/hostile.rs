@@ -44,7 +44,10 @@ fn traps() -> tempfile::TempDir {
             "image: {image}\nresolution: {resolution}\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
         )
     };
-    let written: [(&str, Vec<u8>); 14] = [
+    let row = |row: &str| {
+        format!("time_s,x_m,y_m,bearing_rad,left_ticks,right_ticks\n0,0,0,0,0,0\n{row}\n").into_bytes()
+    };
+    let written: [(&str, Vec<u8>); 24] = [
         ("tiny.toml", b"wheel_perimeter_m = 1e-310\n".to_vec()),
         ("zero.yaml", yaml("/dev/zero", "0.05").into_bytes()),
         ("huge.map", b"type octile\nheight 4\nwidth 4000000000\nmap\n....\n".to_vec()),
@@ -58,6 +61,16 @@ fn traps() -> tempfile::TempDir {
         ("ok.txt", b"S.#F\n....\n".to_vec()),
         ("empty.txt", Vec::new()),
         ("binary.txt", (0..=255).collect()),
+        ("ok.csv", row("1,1,0,0,9,9")),
+        ("nan.csv", row("1,1,nan,0,9,9")),
+        ("half.csv", row("1,1,,0,9,9")),
+        ("back.csv", row("-1,1,0,0,9,9")),
+        ("cut.csv", row("1,1,0")),
+        ("open.csv", row("1,,,,9,9")),
+        ("still.csv", row("1,1,0,0,0,0")),
+        ("ticks.csv", row("1,1,0,0,9.5,9")),
+        ("names.csv", b"time,x,y,theta,left,right\n0,0,0,0,0,0\n".to_vec()),
+        ("steered.toml", b"drive = \"steered\"\n".to_vec()),
         ("bad.toml", b"[errors]\nturn_red = 0.1\n".to_vec()),
     ];
     for (name, bytes) in written {
@@ -113,15 +126,47 @@ fn bad_input_gets_one_clear_line() {
         ("scen ok.txt".into(), 1, "ok.txt line 1"),
     ];
     for (arguments, code, message) in cases {
-        let output = run(folder.path(), &arguments.replace(';', "\\;"));
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(code), "{arguments}: {stderr}");
-        assert!(stderr.contains(message), "{arguments}: {stderr}");
-        assert!(output.stdout.is_empty(), "{arguments}");
-        if code == 1 {
-            assert_eq!(stderr.trim_end().lines().count(), 1, "{arguments}: {stderr}");
-            assert!(stderr.starts_with("activecell: "), "{stderr}");
-        }
+        refused(folder.path(), &arguments, code, message);
+    }
+}
+
+#[test]
+fn bad_logs_get_one_clear_line() {
+    let folder = traps();
+    let cases = [
+        ("calibrate nan.csv", 1, "nan.csv line 3, column 5: y_m is `nan`; give a number"),
+        ("calibrate half.csv", 1, "half.csv line 3, column 5: y_m is ``; give x, y and bearing"),
+        ("calibrate back.csv", 1, "back.csv line 3: the time goes back"),
+        ("calibrate cut.csv", 1, "cut.csv line 3: the row has 3 columns, the first line 6"),
+        ("calibrate open.csv", 1, "open.csv: the log needs two poses of ground truth"),
+        ("calibrate ticks.csv", 1, "ticks.csv line 3, column 9: left_ticks is `9.5`; give a whole number"),
+        ("calibrate names.csv", 1, "names.csv line 1: no column time_s in the header"),
+        ("calibrate binary.txt", 1, "binary.txt"),
+        ("calibrate empty.txt", 1, "empty.txt: the log needs two poses"),
+        ("calibrate /dev/zero", 1, "the file has more than 33554432 bytes"),
+        ("calibrate ok.csv -o ok.csv", 2, "ok.csv is a log; give another name to write to"),
+        ("calibrate ok.csv --hold-out ok.csv", 2, "the fit sees ok, so it cannot be held out"),
+        ("calibrate missing.csv", 1, "missing.csv: there is no such file"),
+        ("calibrate ok.csv", 2, "ok.csv does not say which robot drove; give --robot"),
+        ("calibrate ok.csv --robot steered.toml", 1, "of a steered robot only the perimeter shows in a log"),
+        ("calibrate still.csv --robot tiny.toml", 1, "tiny.toml line 1"),
+        ("calibrate ok.csv --robot steered.toml --picture a.gif", 2, "must end in .svg or .png"),
+    ];
+    for (arguments, code, message) in cases {
+        refused(folder.path(), arguments, code, message);
+    }
+}
+
+/// The command fails with this code and message, and nothing else.
+fn refused(folder: &Path, arguments: &str, code: i32, message: &str) {
+    let output = run(folder, &arguments.replace(';', "\\;"));
+    let stderr = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments}: {stderr}");
+    assert!(stderr.contains(message), "{arguments}: {stderr}");
+    assert!(output.stdout.is_empty(), "{arguments}");
+    if code == 1 {
+        assert_eq!(stderr.trim_end().lines().count(), 1, "{arguments}: {stderr}");
+        assert!(stderr.starts_with("activecell: "), "{stderr}");
     }
 }
 

@@ -1,10 +1,11 @@
 //! The disk: the only module that touches it.
 
+use crate::drive_log;
 use crate::error::{Error, line_and_column, shown};
 use crate::movingai;
 use crate::raster;
 use crate::ros::{self, MapYaml};
-use activecell::{Frame, Lattice, Map};
+use activecell::{DriveLog, Frame, Lattice, Map, Robot};
 use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -259,6 +260,49 @@ fn read_ros(path: &Path, reading: ros::Reading) -> Result<Map, Error> {
         Err(cause) => return Err(Error::InFile { path: path.to_owned(), cause: Box::new(cause) }),
     };
     ros::to_map(&image, &yaml, &reading)
+}
+
+/// The logs that a path names: itself, or if it is a folder every `.csv` in it but metadata, by name.
+///
+/// # Errors
+/// [`Error::Io`]; [`Error::BadFormat`] for a folder without logs.
+pub fn drive_logs(path: &Path) -> Result<Vec<PathBuf>, Error> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_owned()]);
+    }
+    let failed = |cause| Error::Io { path: path.to_owned(), action: "read", cause };
+    let mut logs = Vec::new();
+    for entry in fs::read_dir(path).map_err(failed)? {
+        let log = entry.map_err(failed)?.path();
+        let is_csv = log.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+        let stem = log.file_stem().unwrap_or_default().to_string_lossy();
+        if is_csv && !stem.ends_with("_metadata") {
+            logs.push(log);
+        }
+    }
+    logs.sort();
+    if logs.is_empty() {
+        return Err(Error::file("the folder holds no .csv; name a log, or a folder of logs").in_file(path));
+    }
+    Ok(logs)
+}
+
+/// Reads an encoder log, and the robot of the `OptiOdom` metadata file beside it (`NAME_metadata.csv` for
+/// `NAME_run-01.csv`), if there is one.
+///
+/// # Errors
+/// All errors of [`drive_log`], with the file.
+pub fn read_drive_log(path: &Path) -> Result<(DriveLog, Option<Robot>), Error> {
+    let log = drive_log::read(&read_bytes(path, drive_log::MAX_LOG_BYTES)?);
+    let log = log.map_err(|error| error.in_file(path))?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let Some((session, _)) = name.rsplit_once("_run-") else { return Ok((log, None)) };
+    let metadata = path.with_file_name(format!("{session}_metadata.csv"));
+    if !metadata.is_file() {
+        return Ok((log, None));
+    }
+    let robot = drive_log::read_metadata(&read_bytes(&metadata, drive_log::MAX_METADATA_BYTES)?);
+    Ok((log, Some(robot.map_err(|error| error.in_file(&metadata))?)))
 }
 
 fn beside(path: &Path, name: &str) -> PathBuf {

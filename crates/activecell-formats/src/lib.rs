@@ -6,6 +6,8 @@
 //! | [`movingai`] | `MovingAI` benchmarks: `.map` and `.scen` |
 //! | [`raster`] | images: PNG, PGM, PPM |
 //! | [`robot`] | robots: TOML |
+//! | [`drive_log`] | encoder logs with ground truth: CSV |
+//! | [`calibration`] | what a calibration found: JSON |
 //! | [`run`] | routes and runs: JSON |
 //! | [`certificate`] | certificates, in the routes' JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
@@ -25,7 +27,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod calibration;
 pub mod certificate;
+pub mod drive_log;
 mod error;
 pub mod files;
 pub mod movingai;

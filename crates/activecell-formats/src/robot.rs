@@ -4,6 +4,7 @@ use crate::error::{Error, quoted};
 use activecell::{Drive, Robot};
 use std::ops::Range;
 use toml::de::{DeTable, DeValue};
+use toml_edit::DocumentMut;
 
 /// Where a key's value goes.
 enum Slot {
@@ -71,6 +72,57 @@ pub fn read(bytes: &[u8]) -> Result<Robot, Error> {
     let mut robot = Robot::default();
     read_table(text, "", document.get_ref(), &mut robot)?;
     Ok(robot)
+}
+
+/// The text of a robot file in which `robot` stands instead of what it says now: only values that differ are
+/// written, and comments and order stay. An empty text becomes a file of what differs from the default.
+///
+/// Numbers that are written have seven digits.
+///
+/// # Errors
+/// Those of [`read`], for the text as it is.
+///
+/// ```
+/// use activecell::Robot;
+/// use activecell_formats::robot;
+/// let text = "# ours\ntrack_m = 0.3 # by the ruler\nradius_m = 0.2\n";
+/// let robot = Robot { track_m: 0.2953, ..robot::read(text.as_bytes())? };
+/// assert_eq!(robot::update(text, &robot)?, text.replace("0.3", "0.2953"));
+/// # Ok::<(), activecell_formats::Error>(())
+/// ```
+pub fn update(text: &str, robot: &Robot) -> Result<String, Error> {
+    let mut old = read(text.as_bytes())?;
+    let mut robot = *robot;
+    let mut document: DocumentMut = text.parse().map_err(|_| Error::file("not TOML"))?;
+    for (key, slot) in &KEYS {
+        let value: toml_edit::Value = match slot {
+            Slot::Number(field) if field(&mut old).to_bits() == field(&mut robot).to_bits() => continue,
+            Slot::Count(field) if field(&mut old) == field(&mut robot) => continue,
+            Slot::Flag(field) if field(&mut old) == field(&mut robot) => continue,
+            Slot::Drive if old.drive == robot.drive => continue,
+            // Written with seven digits and read again.
+            Slot::Number(field) => {
+                format!("{:.6e}", field(&mut robot)).parse().unwrap_or(*field(&mut robot)).into()
+            }
+            Slot::Count(field) => i64::from(*field(&mut robot)).into(),
+            Slot::Flag(field) => (*field(&mut robot)).into(),
+            Slot::Drive => robot.drive.name().into(),
+        };
+        let (table, name) = match key.split_once('.') {
+            Some((section, name)) => (document.entry(section).or_insert_with(toml_edit::table), name),
+            None => (document.as_item_mut(), *key),
+        };
+        // A comment behind the old value stays behind the new one.
+        match table.get_mut(name).and_then(toml_edit::Item::as_value_mut) {
+            Some(there) => {
+                let decor = there.decor().clone();
+                *there = value;
+                *there.decor_mut() = decor;
+            }
+            None => table[name] = toml_edit::value(value),
+        }
+    }
+    Ok(document.to_string())
 }
 
 /// The robot as JSON, with the keys and sections of a robot file.
@@ -179,6 +231,28 @@ mod tests {
     #[test]
     fn an_empty_file_is_the_default_robot() {
         assert_eq!(read(b"").unwrap(), Robot::default());
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let mut robot = Robot { drive: Drive::Steered, can_reverse: false, ..Robot::default() };
+        robot.wheel_perimeter_m = 0.263_000_123_4;
+        robot.errors.track_rel = 1.0 / 3.0 / 7.0;
+        robot.sensors.beams = 5;
+        for text in [
+            "",
+            "track_m = 0.5\n[errors] # here\nturn_rad = 1\n\n[power]\nidle_w = 3\n",
+            "errors = { track_rel = 0.1 }",
+        ] {
+            let written = update(text, &robot).unwrap();
+            let back = read(written.as_bytes()).unwrap();
+            assert!((back.errors.track_rel / robot.errors.track_rel - 1.0).abs() < 1e-6, "{written}");
+            assert!((back.wheel_perimeter_m - 0.263_000_1).abs() < 1e-12);
+            let same = Robot { wheel_perimeter_m: robot.wheel_perimeter_m, errors: robot.errors, ..back };
+            assert_eq!(same, robot, "{written}");
+        }
+        assert_eq!(update("", &Robot::default()).unwrap(), "");
+        assert!(update("[", &robot).is_err());
     }
 
     #[test]

@@ -5,7 +5,7 @@ mod common;
 
 use activecell_formats::raster::{Channels, Image, read_image, read_pgm, read_png, write_png};
 use activecell_formats::ros::{MapYaml, Reading, to_map};
-use activecell_formats::{Error, movingai};
+use activecell_formats::{Error, drive_log, movingai, robot};
 use proptest::prelude::*;
 
 fn read_all(bytes: &[u8]) {
@@ -13,6 +13,12 @@ fn read_all(bytes: &[u8]) {
     movingai::read_map(bytes).map_or_else(one_line, drop);
     movingai::read_scen(bytes).map_or_else(one_line, drop);
     MapYaml::read(bytes).map_or_else(one_line, drop);
+    drive_log::read(bytes).map_or_else(one_line, drop);
+    drive_log::read_metadata(bytes).map_or_else(one_line, drop);
+    if let Ok(text) = std::str::from_utf8(bytes) {
+        let other = activecell::Robot { track_m: 0.3, ..activecell::Robot::default() };
+        robot::update(text, &other).map_or_else(one_line, drop);
+    }
     read_png(bytes).map_or_else(one_line, drop);
     read_pgm(bytes).map_or_else(one_line, drop);
     if let Ok(image) = read_image(bytes) {
@@ -28,6 +34,10 @@ fn good_files() -> Vec<Vec<u8>> {
         b"image: a.pgm\nresolution: 0.05\norigin: [0, -1.5, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
             .to_vec(),
         b"image: 'a.pgm'\norigin:\n  - 0\n  - -1.5\n  - &x 0\nmode: \"raw\" # comment\nmore: |\n  text\n".to_vec(),
+        b"time_s,x_m,y_m,bearing_rad,left_ticks,right_ticks\n0,0,0,0,0,0\n1,,,,90,91\n2,1.5,0,0,80,79\n".to_vec(),
+        b"0,0,0,0,0,0\n0.05,1e-3,-2,3.1,7,8\n".to_vec(),
+        b"type,diff,\nngear,43.7,\nencRes,64,\nLi,0.2,\nDi,0.084,0.084\n".to_vec(),
+        b"track_m = 0.5 # c\n[errors] # here\nturn_rad = 1\n\n[power]\nidle_w = 3\n".to_vec(),
         b"P5\n# c\n3 2\n255\nabcdef".to_vec(),
         b"P2 3 2 15\n1 2 3 4 5 6\n".to_vec(),
         b"P6 2 1 300 aabbccddeeff".to_vec(),

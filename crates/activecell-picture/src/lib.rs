@@ -34,6 +34,7 @@
 mod animation;
 mod colour;
 mod control;
+mod drives;
 mod figure;
 mod font;
 mod layout;
@@ -51,6 +52,7 @@ mod terminal;
 
 use activecell::predict::{Closures, Plan};
 use activecell::{Cell, Map, Region};
+pub use drives::{DrivePanel, drives_png, drives_svg};
 use figure::Figure;
 
 /// When the wave from the target reached a cell; `None` where it did not come.

@@ -73,6 +73,13 @@ pub enum Error {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// A log that tells nothing, or cannot be true.
+    BadLog {
+        /// The row, counted from 0, if it is one row's fault.
+        row: Option<usize>,
+        /// What is wrong and what would be right.
+        reason: &'static str,
+    },
     /// Bytes that are no embedded map.
     BadEmbedded {
         /// The byte, counted from 0.
@@ -105,6 +112,8 @@ impl fmt::Display for Error {
             Self::StepLimit { steps } => {
                 write!(f, "gave up after {steps} steps; raise the limit, or use the rule `wave`")
             }
+            Self::BadLog { row: Some(row), reason } => write!(f, "row {row} of the log: {reason}"),
+            Self::BadLog { row: None, reason } => f.write_str(reason),
             Self::BadEmbedded { offset, reason } => {
                 write!(f, "embedded map, byte {offset}: {reason}; make the file anew")
             }

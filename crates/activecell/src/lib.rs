@@ -29,6 +29,7 @@
 //!
 //! The core does no I/O, has no dependencies, and gives the same result on every run.
 
+mod calibrate;
 pub mod control;
 mod embedded;
 mod error;
@@ -43,6 +44,10 @@ pub mod rule;
 mod search;
 mod wave;
 
+pub use calibrate::{
+    Calibration, DriveLog, EndError, LogRow, Odometry, REGION_95, SquareErrors, TruthNoise, calibrate,
+    deviations_squared, umbmark,
+};
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, Region, Trust, TrustedRoute};

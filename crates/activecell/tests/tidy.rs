@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 13] = [
+const LAYERS: [&str; 14] = [
     "rng",
     "lattice",
     "error",
@@ -20,6 +20,7 @@ const LAYERS: [&str; 13] = [
     "program",
     "control",
     "error_budget",
+    "calibrate",
     "predict",
 ];
 const MAX_LINES: usize = 600;

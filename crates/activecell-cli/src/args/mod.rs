@@ -1,8 +1,10 @@
 //! The command line: every option and its help.
 
+mod calibrate;
 mod place;
 
 use activecell::{Lattice, Rule};
+pub(crate) use calibrate::CalibrateArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use place::{Place, heading};
 use std::path::PathBuf;
@@ -38,6 +40,7 @@ pub(crate) enum Command {
     Info(InfoArgs),
     Convert(ConvertArgs),
     Embed(EmbedArgs),
+    Calibrate(CalibrateArgs),
     Table(TableArgs),
     /// Print a completion script for a shell
     ///
@@ -414,11 +417,15 @@ mod tests {
         let examples: Vec<&str> = text
             .lines()
             .map(str::trim)
-            .filter(|line| line.starts_with("activecell ") && line.contains("maps/"))
+            .filter(|line| {
+                line.starts_with("activecell ") && (line.contains("maps/") || line.contains("logs/"))
+            })
             .collect();
         for example in &examples {
             let arguments = example.split_whitespace().map(|word| match word {
-                path if path.starts_with("maps/") => format!("{project}/{path}"),
+                path if ["maps/", "logs/"].iter().any(|top| path.starts_with(top)) => {
+                    format!("{project}/{path}")
+                }
                 file if file.contains('.') && !file.starts_with(|c: char| c.is_ascii_digit()) => {
                     folder.join(file).display().to_string()
                 }

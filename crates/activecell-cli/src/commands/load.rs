@@ -54,6 +54,12 @@ const ROBOT_FILE_BYTES: u64 = 64 * 1024;
 
 /// Reads a robot file.
 pub(crate) fn robot(path: &Path) -> anyhow::Result<Robot> {
+    Ok(robot_and_text(path)?.0)
+}
+
+/// Reads a robot file, and its text for one who will change it.
+pub(crate) fn robot_and_text(path: &Path) -> anyhow::Result<(Robot, String)> {
     let bytes = files::read_bytes(path, ROBOT_FILE_BYTES)?;
-    Ok(robot::read(&bytes).map_err(|error| error.in_file(path))?)
+    let robot = robot::read(&bytes).map_err(|error| error.in_file(path))?;
+    Ok((robot, String::from_utf8_lossy(&bytes).into_owned()))
 }

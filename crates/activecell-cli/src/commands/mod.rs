@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+mod calibrate;
 mod certificate;
 mod control;
 mod convert;
@@ -32,6 +33,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
         Command::Info(args) => info::run(&args, terminal)?,
         Command::Convert(args) => convert::run(&args, terminal)?,
         Command::Embed(args) => embed::run(&args, terminal)?,
+        Command::Calibrate(args) => calibrate::run(&args, terminal)?,
         Command::Table(args) => match args.table {
             TableKind::Rule { lattice, format } => Terminal::result(&table::rule(lattice.into(), format)?)?,
             TableKind::Control { format, picture } => control::run(format, picture.as_deref())?,

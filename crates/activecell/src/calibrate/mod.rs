@@ -1,0 +1,13 @@
+//! Calibration: a robot's wheels and noise from its encoders' logs with ground truth.
+
+mod algebra;
+mod fit;
+mod log;
+mod odometry;
+mod sweep;
+mod umbmark;
+
+pub use fit::{Calibration, calibrate};
+pub use log::{DriveLog, EndError, LogRow, TruthNoise};
+pub use odometry::{Odometry, REGION_95, deviations_squared};
+pub use umbmark::{SquareErrors, umbmark};
