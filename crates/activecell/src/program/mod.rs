@@ -4,11 +4,13 @@ mod drive;
 mod motion;
 mod replay;
 mod robot;
+mod slopes;
 
 pub use drive::{Effort, Ticks};
 pub use motion::{Motion, Pose, Wheels};
 pub use replay::{ProgramFault, check_program, replay};
 pub use robot::{Drive, Errors, Power, Robot, Sensors, Slopes};
+pub use slopes::check_slopes;
 
 use crate::lattice::{Cell, Dir};
 use crate::map::Map;
@@ -19,8 +21,10 @@ use crate::route::Route;
 pub struct Waypoint {
     /// Where the run ends.
     pub cell: Cell,
-    /// Wheel revolutions of the run to this cell; negative backwards.
+    /// Wheel revolutions of the run to this cell, over the ground; negative backwards.
     pub revolutions: f64,
+    /// All climbs of the run together, in metres; what goes down again is not taken off. 0 on a flat floor.
+    pub climb_m: f64,
     /// The turn made there: degrees, right (clockwise) positive. 0 at the target, and where the robot only
     /// changes between forwards and backwards.
     pub turn_deg: i32,
@@ -55,6 +59,9 @@ impl Program {
 impl Route {
     /// The program that drives `robot` along this route over the floor of `map`.
     ///
+    /// If the map has an elevation, a run is as long as its ground ([`crate::Ground`]): 10 m of map on a ramp of 10°
+    /// are 10.154 m.
+    ///
     /// `heading` is where the robot faces at first; `None`: along its first run. If a turn is needed before the
     /// first run, the first waypoint is the start itself, with 0 revolutions. A run straight back is driven in
     /// reverse (L < 0) if the robot can, else after a turn of 180°.
@@ -80,8 +87,13 @@ impl Route {
             }
         }
         let heading = heading.or(runs.first().map(|run| run.0));
-        let mut waypoints =
-            vec![Waypoint { cell: start, revolutions: 0.0, turn_deg: 0, turn_revolutions: 0.0 }];
+        let mut waypoints = vec![Waypoint {
+            cell: start,
+            revolutions: 0.0,
+            climb_m: 0.0,
+            turn_deg: 0,
+            turn_revolutions: 0.0,
+        }];
         let mut step = 0;
         let mut facing = heading.unwrap_or(Dir(0));
         for (dir, steps) in runs {
@@ -93,12 +105,14 @@ impl Route {
                 waypoints[here].turn_revolutions = robot.turn_revolutions(turn_deg);
                 facing = dir;
             }
+            let cells = &self.cells()[step..=step + steps];
             step += steps;
-            let run = robot.revolutions(steps as f64 * map.frame().cell_m);
+            let run = robot.revolutions(map.ground_m(cells));
             let revolutions = if back { -run } else { run };
             waypoints.push(Waypoint {
                 cell: self.cells()[step],
                 revolutions,
+                climb_m: map.climb_m(cells),
                 turn_deg: 0,
                 turn_revolutions: 0.0,
             });
