@@ -5,6 +5,7 @@
 //! | [`ros`] | ROS `map_server`: a YAML file and an image |
 //! | [`movingai`] | `MovingAI` benchmarks: `.map` and `.scen` |
 //! | [`raster`] | images: PNG, PGM, PPM |
+//! | [`elevation`] | heights of the ground: ESRI ASCII grid, `GeoTIFF`, gray PNG, `NumPy` |
 //! | [`robot`] | robots: TOML |
 //! | [`run`] | routes and runs: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
@@ -24,6 +25,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod elevation;
 mod error;
 pub mod files;
 pub mod movingai;

@@ -5,6 +5,7 @@
 
 use crate::colour::Rgb;
 use crate::figure::Figure;
+use crate::hills;
 use crate::layout::{Layout, MOVING};
 use crate::legend::{Key, active_disc};
 use crate::palette::{Palette, SAME, wave_tint};
@@ -40,6 +41,7 @@ pub(crate) fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
     keys.extend(figure.keys());
     let mut page = figure.page(&keys, Some(picture));
     page.shapes.push(figure.floor());
+    page.shapes.extend(hills::tints(layout, picture.map));
     let mut stage = Stage { below: raster::draw(&page)?, above: raster::canvas(&page)? };
     raster::draw_shapes(&mut stage.above, &figure.fixed());
 

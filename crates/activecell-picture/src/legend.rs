@@ -7,7 +7,7 @@ use crate::font;
 use crate::layout::{Layout, round_length};
 use crate::route;
 use crate::scene::{Line, Point, Shape, Text};
-use activecell::Map;
+use activecell::{Elevation, Map};
 
 /// Something that the legend explains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,14 +21,15 @@ pub(crate) enum Key {
     Wave,
     Obstacle,
     Closed,
+    Height,
 }
 
 /// Swatches of the wave's colours.
 const SWATCHES: usize = 16;
 
 impl Key {
-    const fn label(self) -> &'static str {
-        match self {
+    fn label(self, map: &Map) -> String {
+        let label = match self {
             Self::Start => "start",
             Self::Target => "target",
             Self::Route => "route",
@@ -38,14 +39,16 @@ impl Key {
             Self::Wave => "wave, near to far",
             Self::Obstacle => "obstacle",
             Self::Closed => "no room",
-        }
+            Self::Height => return heights(map),
+        };
+        label.to_owned()
     }
 
     /// Width of the icon, in multiples of the text's size.
     const fn icon_width(self) -> f64 {
         match self {
             Self::Route | Self::Trapped => 2.0,
-            Self::Wave => 4.0,
+            Self::Wave | Self::Height => 4.0,
             Self::Turn => 0.8,
             _ => 1.2,
         }
@@ -69,10 +72,11 @@ impl Key {
                 let line = Line { colour: PURPLE, width: 0.3 * size, dash: Some(0.4 * size) };
                 band(shapes, PURPLE_TINT, line);
             }
-            Self::Wave => {
+            Self::Wave | Self::Height => {
                 let step = width / SWATCHES as f64;
                 for i in 0..SWATCHES {
-                    let tint = colour::wave(i as f64 / (SWATCHES - 1) as f64);
+                    let share = i as f64 / (SWATCHES - 1) as f64;
+                    let tint = if self == Self::Wave { colour::wave(share) } else { colour::height(share) };
                     let left = x + i as f64 * step;
                     // Each swatch reaches below all that follow: no seams.
                     let rest = x + width - left;
@@ -95,6 +99,13 @@ pub(crate) fn active_disc(centre: Point, radius: f64) -> Shape {
     Shape::Disc { centre, radius, fill: YELLOW, line: Some(Line::new(ORANGE_RIM, (radius * 0.2).max(1.4))) }
 }
 
+/// The lowest and the highest ground.
+fn heights(map: &Map) -> String {
+    let [low, high] = map.elevation().and_then(Elevation::range_m).unwrap_or_default();
+    let digits = if high - low < 20.0 { 1 } else { 0 };
+    format!("ground {low:.digits$} to {high:.digits$} m")
+}
+
 fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Point> {
     vec![[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
 }
@@ -114,12 +125,13 @@ pub(crate) fn footer(layout: &Layout, map: &Map, keys: &[Key], top: f64) -> (Vec
     let mut at = [left, top + row / 2.0];
     at[0] += scale_bar(&mut shapes, layout, map, at) + gap;
     for key in keys {
-        let width = key.icon_width() * size + space + font::width(key.label(), size, false);
+        let label = key.label(map);
+        let width = key.icon_width() * size + space + font::width(&label, size, false);
         if at[0] + width > right && at[0] > left {
             at = [left, at[1] + row];
         }
         key.icon(&mut shapes, at, size);
-        text(&mut shapes, [at[0] + key.icon_width() * size + space, at[1]], size, key.label());
+        text(&mut shapes, [at[0] + key.icon_width() * size + space, at[1]], size, &label);
         at[0] += width + gap;
     }
     (shapes, at[1] + row / 2.0 - top)

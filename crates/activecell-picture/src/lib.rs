@@ -35,6 +35,7 @@ mod colour;
 mod control;
 mod figure;
 mod font;
+mod hills;
 mod layout;
 mod legend;
 mod outline;

@@ -6,6 +6,7 @@ use crate::args::{DrawArg, RouteArgs, WrongArgument, heading};
 use crate::terminal::Terminal;
 use activecell::{
     Cell, Dir, Field, Map, Outcome, Program, Robot, Route, Rule, Terrain, WeightedField, check_program,
+    check_slopes,
 };
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
@@ -34,7 +35,7 @@ struct Solved {
 /// The field that the rule `wave` follows.
 enum Flooded {
     Plain(Field),
-    /// Where walls are kept off.
+    /// Where walls are kept off, or the ground is uneven.
     Weighted(WeightedField),
 }
 
@@ -99,10 +100,14 @@ pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done>
 
 fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let given = args.robot.as_deref().map(load::robot).transpose()?;
-    let Loaded { map, floor, .. } = load::map(&args.map, given.as_ref(), terminal)?;
+    let Loaded { map, floor, .. } = load::on_ground(&args.map, Some(&args.ground), given.as_ref(), terminal)?;
     let (own_robot, robot) = (given.is_some(), given.unwrap_or_default());
     let facing = args.heading.as_deref().map(|name| heading(map.lattice(), name)).transpose()?;
     let (from, wanted_to) = (args.from.on(&map)?, args.to.on(&map)?);
+    let uneven = map.elevation().is_some();
+    if uneven {
+        check_uneven(args)?;
+    }
     let to = if args.nearest { map.nearest_reachable(from, wanted_to)? } else { wanted_to };
     if to != wanted_to {
         terminal.note(&format!("note: there is no way to {wanted_to}; the nearest cell with one is {to}"));
@@ -112,7 +117,11 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let started = Instant::now();
     let rule = Rule::from(args.rule);
     map.check_task(from, to)?;
-    let wanted = args.clearance.map(|wanted_m| map.terrain_kept_clear(from, to, wanted_m)).transpose()?;
+    let wanted = match args.clearance {
+        Some(wanted_m) => Some(map.terrain_kept_clear(from, to, wanted_m)?),
+        None if uneven => Some(map.terrain_for(&robot)?),
+        None => None,
+    };
     let field = match (rule, &wanted) {
         (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(terrain.wave(to)?)),
         (Rule::Wave, None) => Some(Flooded::Plain(map.wave(to)?)),
@@ -130,9 +139,27 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let program = route.program(&robot, &map, facing);
     route.check(&map, from, to)?;
     check_program(&map, &robot, &program, route.cells())?;
+    check_slopes(&map, &robot, route.cells())?;
     let mut report = RouteReport::new(rule, &route, &program, &robot, &map, seconds);
     report.clearance_m = args.clearance.and_then(|_| map.clearance_m(route.cells()));
     Ok(Solved { map, floor, robot, own_robot, from, to, field, route, program, report })
+}
+
+/// Refuses what does not look at slopes.
+fn check_uneven(args: &RouteArgs) -> Result<(), WrongArgument> {
+    let refuse = |what: &str| {
+        Err(WrongArgument(format!(
+            "{what} does not look at slopes; leave it out, or leave the elevation out"
+        )))
+    };
+    match Rule::from(args.rule) {
+        Rule::Wave => {}
+        other => return refuse(&format!("--rule {}", other.name())),
+    }
+    if args.clearance.is_some() {
+        return refuse("--clearance");
+    }
+    if args.nearest { refuse("--nearest") } else { Ok(()) }
 }
 
 /// The result for people.
@@ -159,6 +186,12 @@ fn text(solved: &Solved) -> String {
     }
     if program.waypoints.len() == 1 && route.steps() == 0 {
         return text + "the robot is there already\n";
+    }
+    if let (Some(ground_m), Some(climb_m), Some(deg)) = (report.ground_m, report.climb_m, report.steepest_deg)
+    {
+        text += &format!(
+            "on the ground: {ground_m:.2} m, climbing {climb_m:.2} m; steepest slope on the way {deg:.1}°\n"
+        );
     }
     if let Some(clearance_m) = report.clearance_m {
         text += &format!("clearance: {clearance_m:.2} m\n");
