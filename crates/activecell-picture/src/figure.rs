@@ -120,7 +120,8 @@ impl<'a> Figure<'a> {
     /// What lies above tints and does not change: grid, obstacles, the floor's edge.
     pub(crate) fn fixed(&self) -> Vec<Shape> {
         let mut shapes: Vec<Shape> = hills::shading(&self.layout, self.map).into_iter().collect();
-        if self.layout.cell >= GRID_PX {
+        // Light and shadow are to be seen, not lines across them.
+        if self.layout.cell >= GRID_PX && self.map.elevation().is_none() {
             shapes.push(Shape::lines(self.grid(), Line::new(GRID, 1.0)));
         }
         if has_obstacles(self.map) {

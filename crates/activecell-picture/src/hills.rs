@@ -11,8 +11,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 use tiny_skia::{ColorU8, Pixmap};
 
 /// Steps of the tints and of the shading: few enough for small files, too many to be seen.
-const TINTS: f64 = 40.0;
-const SHADES: f64 = 48.0;
+const TINTS: f64 = 60.0;
+const SHADES: f64 = 100.0;
 /// How dark the darkest slope becomes and how bright the brightest.
 const DARKEST: f64 = 0.5;
 const BRIGHTEST: f64 = 0.55;

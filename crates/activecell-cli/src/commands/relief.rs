@@ -25,9 +25,19 @@ pub(crate) fn alone(
     let Relief { elevation, georeference } =
         files::read_elevation(&args.path, &heights(ground, args.resolution))?;
     note_degrees(&args.path, &elevation, georeference, terminal);
-    let [across, down] = elevation.posts().apart_m;
-    let cell_m = across.min(down);
+    let cell_m = cell_m(elevation.posts().apart_m);
     Ok(Map::over(elevation, lattice, cell_m, kind(ground))?)
+}
+
+/// The cells of ground alone: its posts, or if these are further apart one way than the other, cells of about the
+/// shorter distance, in three digits.
+fn cell_m([across, down]: [f64; 2]) -> f64 {
+    let shorter = across.min(down);
+    if (across - down).abs() <= 1e-9 * across {
+        return shorter;
+    }
+    let tens = 10f64.powi(2 - shorter.log10().floor() as i32);
+    (shorter * tens).floor() / tens
 }
 
 /// The map with the ground that the arguments lay under it.

@@ -40,10 +40,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Values, Error> {
     };
     let most = (bytes.len() as u64).saturating_mul(8 * MOST_EXPANSION) / bits.max(1);
     let (columns, rows) = check_size(columns.into(), rows.into(), most, bytes.len())?;
-    limits.decoding_buffer_size = columns as usize * rows as usize * bits.div_ceil(8) as usize;
+    // Tags are counted against the same limit.
+    limits.decoding_buffer_size =
+        (columns as usize * rows as usize * bits.div_ceil(8) as usize).max(TAG_BYTES);
     let mut tiff = tiff.with_limits(limits);
     let place = place(&mut tiff, [columns, rows])?;
-    let nodata = text(&mut tiff, Tag::GdalNodata).and_then(|text| text.trim().parse::<f64>().ok());
+    let nodata = text(&mut tiff, Tag::GdalNodata)?.and_then(|text| text.trim().parse::<f64>().ok());
     let image = tiff.read_image().map_err(|error| damaged(&error))?;
     let values = floats(image, nodata);
     if values.len() != columns as usize * rows as usize {
@@ -74,7 +76,7 @@ fn floats(image: DecodingResult, nodata: Option<f64>) -> Vec<f32> {
 
 /// Where the posts stand.
 fn place(tiff: &mut Tiff<'_>, size: [u32; 2]) -> Result<Place, Error> {
-    let keys = keys(tiff);
+    let keys = keys(tiff)?;
     let key = |wanted: u16| keys.iter().find(|key| key.0 == wanted).map(|key| key.1);
     let Some((mut apart, mut upper_left)) = grid(tiff)? else { return Ok(Place::Unsaid) };
     if key(RASTER_TYPE) == Some(PIXEL_IS_POINT) {
@@ -107,12 +109,12 @@ fn place(tiff: &mut Tiff<'_>, size: [u32; 2]) -> Result<Place, Error> {
 /// The distance of the posts, and the upper left corner.
 fn grid(tiff: &mut Tiff<'_>) -> Result<Option<([f64; 2], [f64; 2])>, Error> {
     if let (Some(scale), Some(tie)) =
-        (numbers(tiff, Tag::ModelPixelScaleTag), numbers(tiff, Tag::ModelTiepointTag))
+        (numbers(tiff, Tag::ModelPixelScaleTag)?, numbers(tiff, Tag::ModelTiepointTag)?)
         && let ([across, down, ..], [column, row, _, x, y, ..]) = (&scale[..], &tie[..])
     {
         return Ok(Some(([across.abs(), down.abs()], [x - column * across.abs(), y + row * down.abs()])));
     }
-    if let Some(matrix) = numbers(tiff, Tag::ModelTransformationTag)
+    if let Some(matrix) = numbers(tiff, Tag::ModelTransformationTag)?
         && let [across, b, _, x, c, down, _, y, ..] = matrix[..]
     {
         if b != 0.0 || c != 0.0 || across <= 0.0 || down >= 0.0 {
@@ -124,21 +126,23 @@ fn grid(tiff: &mut Tiff<'_>) -> Result<Option<([f64; 2], [f64; 2])>, Error> {
 }
 
 /// The keys that have a value of their own.
-fn keys(tiff: &mut Tiff<'_>) -> Vec<(u16, u16)> {
-    let tag = tiff.find_tag(Tag::GeoKeyDirectoryTag).ok().flatten();
+fn keys(tiff: &mut Tiff<'_>) -> Result<Vec<(u16, u16)>, Error> {
+    let tag = tiff.find_tag(Tag::GeoKeyDirectoryTag).map_err(|error| damaged(&error))?;
     let words = tag.and_then(|value| value.into_u16_vec().ok()).unwrap_or_default();
     let entries = words.chunks_exact(4).skip(1);
-    entries.filter(|entry| entry[1] == 0).map(|entry| (entry[0], entry[3])).collect()
+    Ok(entries.filter(|entry| entry[1] == 0).map(|entry| (entry[0], entry[3])).collect())
 }
 
-fn numbers(tiff: &mut Tiff<'_>, tag: Tag) -> Option<Vec<f64>> {
-    let numbers = tiff.find_tag(tag).ok().flatten()?.into_f64_vec().ok()?;
-    numbers.iter().all(|number| number.is_finite()).then_some(numbers)
+fn numbers(tiff: &mut Tiff<'_>, tag: Tag) -> Result<Option<Vec<f64>>, Error> {
+    let Some(value) = tiff.find_tag(tag).map_err(|error| damaged(&error))? else { return Ok(None) };
+    let numbers = value.into_f64_vec().map_err(|error| damaged(&error))?;
+    Ok(Some(numbers).filter(|numbers| numbers.iter().all(|number| number.is_finite())))
 }
 
-fn text(tiff: &mut Tiff<'_>, tag: Tag) -> Option<String> {
-    let text = tiff.find_tag(tag).ok().flatten()?.into_string().ok()?;
-    Some(text.trim_end_matches('\0').to_owned())
+fn text(tiff: &mut Tiff<'_>, tag: Tag) -> Result<Option<String>, Error> {
+    let value = tiff.find_tag(tag).map_err(|error| damaged(&error))?;
+    let text = value.and_then(|value| value.into_string().ok());
+    Ok(text.map(|text| text.trim_end_matches('\0').to_owned()))
 }
 
 fn damaged(error: &TiffError) -> Error {

@@ -62,26 +62,34 @@ pub(super) fn read_npz(bytes: &[u8]) -> Result<Values, Error> {
 
 /// The header of an array, looked at before it is trusted.
 fn header(bytes: &[u8]) -> Result<NpyHeader, Error> {
-    let no_array = || Error::file("this is no NumPy array; save one with numpy.save");
-    let version = bytes.get(6).filter(|_| bytes.starts_with(b"\x93NUMPY")).ok_or_else(no_array)?;
-    let (length, begin) = match version {
-        1 => (u32::from(u16::from_le_bytes([bytes[8], *bytes.get(9).ok_or_else(no_array)?])), 10),
-        _ => (
-            u32::from_le_bytes(bytes.get(8..12).and_then(|four| four.try_into().ok()).ok_or_else(no_array)?),
-            12,
-        ),
+    if !bytes.starts_with(b"\x93NUMPY") {
+        return Err(Error::file("this is no NumPy array; save one with numpy.save"));
+    }
+    let cut = || Error::file("the array is cut short; fetch it again");
+    let (length, begin) = match bytes[6..] {
+        [1, _, low, high, ..] => (u32::from(u16::from_le_bytes([low, high])), 10),
+        [_, _, a, b, c, d, ..] => (u32::from_le_bytes([a, b, c, d]), 12),
+        _ => return Err(cut()),
     };
     if length as usize > MAX_HEADER_BYTES {
         return Err(Error::file(format!(
             "the array's header of {length} bytes is too long; save the array anew"
         )));
     }
-    let text = bytes
-        .get(begin..begin + length as usize)
-        .ok_or_else(|| Error::file("the array is cut short; fetch it again"))?;
+    let text = bytes.get(begin..begin + length as usize).ok_or_else(cut)?;
     // The parser of headers follows brackets as deep as they go.
     if text.iter().filter(|byte| b"([{".contains(byte)).count() > 64 {
         return Err(Error::file("the array's header has too many brackets; save a plain array of numbers"));
+    }
+    // Nor does it expect that a product of sizes is no number any more.
+    let numbers =
+        text.split(|byte| !byte.is_ascii_digit()).filter_map(|digits| std::str::from_utf8(digits).ok());
+    let sizes =
+        numbers.filter(|digits| !digits.is_empty()).map(|digits| digits.parse().unwrap_or(u64::MAX).max(1));
+    if sizes.fold(1u64, u64::saturating_mul) > 1 << 62 {
+        return Err(Error::file(
+            "the array's header declares more than any file can hold; save the array anew",
+        ));
     }
     NpyHeader::from_reader(bytes).map_err(|error| unreadable(&error))
 }

@@ -257,7 +257,8 @@ impl Map {
         if self.relief.is_none() {
             return 0.0;
         }
-        cells.windows(2).map(|pair| self.profile_or_flat(pair[0], pair[1]).climb_m).sum()
+        let climbs = cells.windows(2).map(|pair| self.profile_or_flat(pair[0], pair[1]).climb_m);
+        climbs.fold(0.0, |sum, climb_m| sum + climb_m)
     }
 
     /// The length on the ground of a way from cell to cell.
@@ -266,6 +267,6 @@ impl Map {
             return cells.len().saturating_sub(1) as f64 * self.frame().cell_m;
         }
         let steps = cells.windows(2).map(|pair| self.profile_or_flat(pair[0], pair[1]));
-        steps.map(|profile| profile.ground_m(self.ground())).sum()
+        steps.map(|profile| profile.ground_m(self.ground())).fold(0.0, |sum, length_m| sum + length_m)
     }
 }
