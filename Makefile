@@ -46,6 +46,7 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/detour.txt --from S --to F --rule published --draw never --picture docs/pictures/detour.svg > /dev/null
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
+	$(ACTIVECELL) route maps/hills.asc --from 6m,20m --to 52m,30m --draw never --picture docs/pictures/hills.png > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
 
 bench:

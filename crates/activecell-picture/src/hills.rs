@@ -56,8 +56,10 @@ pub(crate) fn shading(layout: &Layout, map: &Map) -> Option<Shape> {
 /// The slope to the east and to the north, by Horn's weights.
 fn slope(elevation: &Elevation, [x, y]: PointM, reach_m: f64) -> Option<[f64; 2]> {
     let here = elevation.height_m([x, y])?;
-    // Where the ground ends it goes on level.
-    let at = |dx: f64, dy: f64| elevation.height_m([x + dx * reach_m, y + dy * reach_m]).unwrap_or(here);
+    let height = |dx: f64, dy: f64| elevation.height_m([x + dx * reach_m, y + dy * reach_m]);
+    // Where the ground ends its slope goes on.
+    let beyond = |dx: f64, dy: f64| height(-dx, -dy).map_or(here, |opposite| 2.0 * here - opposite);
+    let at = |dx: f64, dy: f64| height(dx, dy).unwrap_or_else(|| beyond(dx, dy));
     let [nw, n, ne] = [at(-1.0, 1.0), at(0.0, 1.0), at(1.0, 1.0)];
     let [sw, s, se] = [at(-1.0, -1.0), at(0.0, -1.0), at(1.0, -1.0)];
     let [w, e] = [at(-1.0, 0.0), at(1.0, 0.0)];
