@@ -46,8 +46,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Values, Error> {
     } else {
         Place::Metres { apart, corner }
     };
-    let values = heights(bytes, begin, columns as usize * rows as usize, header.nodata)?;
-    Ok(Values { columns, rows, values, place })
+    let heights = heights(bytes, begin, columns as usize * rows as usize, header.nodata)?;
+    Ok(Values { columns, rows, heights, place })
 }
 
 impl Header {
@@ -104,9 +104,8 @@ impl Header {
 }
 
 fn heights(bytes: &[u8], begin: usize, count: usize, nodata: Option<f64>) -> Result<Vec<f32>, Error> {
-    let mut words = Words { bytes, at: begin };
     let mut values = Vec::with_capacity(count);
-    while let Some((at, word)) = words.next() {
+    for (at, word) in (Words { bytes, at: begin }) {
         if values.len() == count {
             return Err(error(
                 bytes,

@@ -1,6 +1,6 @@
 //! `GeoTIFF`, by way of the `tiff` crate, with the size checked before memory is taken.
 //!
-//! Source of tags and keys: Open Geospatial Consortium, *OGC GeoTIFF Standard 1.1*, 2019.
+//! Source of tags and keys: Open Geospatial Consortium, *OGC `GeoTIFF` Standard 1.1*, 2019.
 
 use super::{Place, Values, check_size, looks_like_degrees};
 use crate::error::{Error, quoted};
@@ -47,17 +47,18 @@ pub(super) fn read(bytes: &[u8]) -> Result<Values, Error> {
     let place = place(&mut tiff, [columns, rows])?;
     let nodata = text(&mut tiff, Tag::GdalNodata)?.and_then(|text| text.trim().parse::<f64>().ok());
     let image = tiff.read_image().map_err(|error| damaged(&error))?;
-    let values = floats(image, nodata);
-    if values.len() != columns as usize * rows as usize {
+    let heights = floats(image, nodata);
+    if heights.len() != columns as usize * rows as usize {
         return Err(Error::file("the TIFF has not as many heights as it declares; fetch it again"));
     }
-    Ok(Values { columns, rows, values, place })
+    Ok(Values { columns, rows, heights, place })
 }
 
 /// The image as numbers; those that stand for no height become NaN.
 fn floats(image: DecodingResult, nodata: Option<f64>) -> Vec<f32> {
-    // Compared as the file holds it: a float of 32 bits is written with more digits than it has.
-    let missing = |value: f64| nodata.is_some_and(|nodata| value == nodata || value as f32 == nodata as f32);
+    // Compared as floats of 32 bits: such a one is written with more digits than it has. Adding 0 makes −0 a 0.
+    let short = |value: f64| (value as f32 + 0.0).to_bits();
+    let missing = |value: f64| nodata.is_some_and(|nodata| short(value) == short(nodata));
     let height = |value: f64| if missing(value) || value.is_infinite() { f32::NAN } else { value as f32 };
     match image {
         DecodingResult::U8(values) => values.into_iter().map(|value| height(value.into())).collect(),
@@ -107,7 +108,10 @@ fn place(tiff: &mut Tiff<'_>, size: [u32; 2]) -> Result<Place, Error> {
 }
 
 /// The distance of the posts, and the upper left corner.
-fn grid(tiff: &mut Tiff<'_>) -> Result<Option<([f64; 2], [f64; 2])>, Error> {
+type Grid = ([f64; 2], [f64; 2]);
+
+/// Where the tags put the posts.
+fn grid(tiff: &mut Tiff<'_>) -> Result<Option<Grid>, Error> {
     if let (Some(scale), Some(tie)) =
         (numbers(tiff, Tag::ModelPixelScaleTag)?, numbers(tiff, Tag::ModelTiepointTag)?)
         && let ([across, down, ..], [column, row, _, x, y, ..]) = (&scale[..], &tie[..])

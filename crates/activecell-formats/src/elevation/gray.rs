@@ -29,9 +29,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Values, Error> {
         ));
     }
     samples.truncate(frame.buffer_size());
-    let values = match wide {
+    let heights = match wide {
         1 => samples.iter().map(|&gray| gray.into()).collect(),
         _ => samples.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]]).into()).collect(),
     };
-    Ok(Values { columns, rows, values, place: Place::Unsaid })
+    Ok(Values { columns, rows, heights, place: Place::Unsaid })
 }

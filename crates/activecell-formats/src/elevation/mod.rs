@@ -56,7 +56,7 @@ struct Values {
     columns: u32,
     rows: u32,
     /// Row by row from the top; NaN where there is none.
-    values: Vec<f32>,
+    heights: Vec<f32>,
     place: Place,
 }
 
@@ -132,12 +132,12 @@ pub fn read(bytes: &[u8], format: HeightFormat, options: &HeightOptions) -> Resu
         HeightFormat::Npz => numpy::read_npz(bytes)?,
     };
     if options.scale.is_some() || options.offset_m != 0.0 {
-        for value in &mut read.values {
-            *value = (f64::from(*value) * scale + options.offset_m) as f32;
+        for height in &mut read.heights {
+            *height = (f64::from(*height) * scale + options.offset_m) as f32;
         }
     }
     let (posts, georeference) = read.posts(options.apart_m.unwrap_or(1.0));
-    let elevation = Elevation::new(read.columns, read.rows, read.values, posts)?;
+    let elevation = Elevation::new(read.columns, read.rows, read.heights, posts)?;
     Ok(Relief { elevation, georeference })
 }
 

@@ -138,14 +138,14 @@ fn elements(header: NpyHeader, bytes: impl Read, length: u64, file_bytes: usize)
             )));
         }
     }?;
-    let values = match order {
+    let heights = match order {
         Order::C => values,
         Order::Fortran => {
             let (columns, rows) = (columns as usize, rows as usize);
             (0..rows * columns).map(|i| values[i % columns * rows + i / columns]).collect()
         }
     };
-    Ok(Values { columns, rows, values, place: Place::Unsaid })
+    Ok(Values { columns, rows, heights, place: Place::Unsaid })
 }
 
 fn numbers<T: npyz::Deserialize>(

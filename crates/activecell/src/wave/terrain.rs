@@ -128,9 +128,12 @@ impl Terrain {
         if cost == Some(CLOSED) {
             return bad("the cost of a step", 0.0, "from 1 to 65535");
         }
-        let place = self.places([from])?[0].1;
+        let (width, height) = (self.map.width(), self.map.height());
+        let place = self.padded.place(from).ok_or(Error::OutsideMap { cell: from, width, height })?;
         let steps = Arc::make_mut(&mut self.steps);
-        steps.resize(self.padded.len() * usize::from(degree), 1);
+        if steps.is_empty() {
+            steps.resize(self.padded.len() * usize::from(degree), 1);
+        }
         steps[place * usize::from(degree) + dir.index()] = cost.unwrap_or(CLOSED);
         Ok(())
     }
