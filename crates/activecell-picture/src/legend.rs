@@ -102,7 +102,7 @@ pub(crate) fn active_disc(centre: Point, radius: f64) -> Shape {
 /// The lowest and the highest ground.
 fn heights(map: &Map) -> String {
     let [low, high] = map.elevation().and_then(Elevation::range_m).unwrap_or_default();
-    let digits = if high - low < 20.0 { 1 } else { 0 };
+    let digits = usize::from(high - low < 20.0);
     format!("ground {low:.digits$} to {high:.digits$} m")
 }
 

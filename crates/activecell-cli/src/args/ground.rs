@@ -10,7 +10,7 @@ pub(crate) struct GroundArgs {
     /// The ground's heights: a GeoTIFF .tif, an ESRI grid .asc, a gray .png, a NumPy .npy or .npz
     ///
     /// A file that says in metres where it lies is laid there, in the map's frame; any other over the map, corner to
-    /// corner. Steps too steep for the robot ([slopes] in its file) are avoided, and lengths are those of the ground.
+    /// corner. Steps too steep for the robot (`slopes` in its file) are avoided, and lengths are those of the ground.
     #[arg(long, value_name = "FILE")]
     pub(crate) elevation: Option<PathBuf>,
     /// Metres that a value of 1 in the elevation is worth [default: 1; a .png needs it]

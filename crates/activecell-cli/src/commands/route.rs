@@ -36,7 +36,7 @@ struct Solved {
 enum Flooded {
     Plain(Field),
     /// Where walls are kept off, or the ground is uneven.
-    Weighted(WeightedField),
+    Weighted(Box<WeightedField>),
 }
 
 impl Flooded {
@@ -123,7 +123,7 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
         None => None,
     };
     let field = match (rule, &wanted) {
-        (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(terrain.wave(to)?)),
+        (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(Box::new(terrain.wave(to)?))),
         (Rule::Wave, None) => Some(Flooded::Plain(map.wave(to)?)),
         _ => None,
     };
