@@ -119,7 +119,11 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     map.check_task(from, to)?;
     let wanted = match args.clearance {
         Some(wanted_m) => Some(map.terrain_kept_clear(from, to, wanted_m)?),
-        None if uneven => Some(map.terrain_for(&robot)?),
+        None if uneven => {
+            let terrain = map.terrain_for(&robot)?;
+            terrain.map().check_task(from, to)?;
+            Some(terrain)
+        }
         None => None,
     };
     let field = match (rule, &wanted) {
