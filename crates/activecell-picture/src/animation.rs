@@ -46,7 +46,7 @@ pub(crate) fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
     raster::draw_shapes(&mut stage.above, &figure.fixed());
 
     let marks = route::marks(layout, picture);
-    let mut film = Film::new(&stage.frame(&marks), PAUSE_CS)?;
+    let mut film = Film::new(&stage.frame(&marks), PAUSE_CS, picture.map.elevation().is_some())?;
     if let Some(wave) = picture.wave {
         show_wave(&mut film, &mut stage, &figure, wave, &marks)?;
     }
@@ -183,11 +183,11 @@ struct Film {
 
 impl Film {
     /// A film whose first frame covers all of it.
-    fn new(first: &Pixmap, delay_cs: u16) -> Result<Self, Error> {
+    fn new(first: &Pixmap, delay_cs: u16, uneven: bool) -> Result<Self, Error> {
         let (width, height) = (first.width(), first.height());
         let size = |size: u32| u16::try_from(size).map_err(|_| Error::Canvas { width, height });
         let (w, h) = (size(width)?, size(height)?);
-        let mut palette = Palette::new();
+        let mut palette = Palette::new(uneven);
         let mut encoder =
             gif::Encoder::new(Vec::new(), w, h, &palette.bytes()).map_err(|error| encoding(&error))?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(|error| encoding(&error))?;
