@@ -47,6 +47,7 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
 	$(ACTIVECELL) route maps/office.yaml --cell 0.5 --from 1.2m,1.5m --to 19m,11m --robot maps/robot.toml --draw never --picture docs/pictures/certificate.png -q > /dev/null
+	$(ACTIVECELL) route maps/hills.asc --from 6m,20m --to 52m,30m --draw never --picture docs/pictures/hills.png > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
 	cargo run -q -p activecell-picture --example prediction > docs/pictures/prediction.svg
 	$(ACTIVECELL) calibrate logs/monday logs/tuesday logs/friday --robot logs/robot.toml --picture docs/pictures/calibration.svg > /dev/null

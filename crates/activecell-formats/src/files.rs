@@ -1,11 +1,12 @@
 //! The disk: the only module that touches it.
 
 use crate::drive_log;
+use crate::elevation::{self, Georeference, HeightFormat, HeightOptions, Relief};
 use crate::error::{Error, line_and_column, shown};
 use crate::movingai;
 use crate::raster;
 use crate::ros::{self, MapYaml};
-use activecell::{DriveLog, Frame, Lattice, Map, Robot};
+use activecell::{DriveLog, Frame, Ground, Lattice, Map, Robot};
 use std::fs;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
@@ -171,6 +172,8 @@ pub enum MapFormat {
     Pgm,
     /// Text: `.txt`.
     Text,
+    /// Heights of the ground: `.asc`, `.tif`, `.npy`, `.npz`.
+    Elevation,
 }
 
 impl MapFormat {
@@ -192,6 +195,7 @@ impl MapFormat {
             Some("png") => Ok(Self::Png),
             Some("pgm") => Ok(Self::Pgm),
             Some("txt") => Ok(Self::Text),
+            Some("asc" | "tif" | "tiff" | "npy" | "npz") => Ok(Self::Elevation),
             _ => Err(Error::UnknownFormat { path: path.to_owned() }),
         }
     }
@@ -204,16 +208,18 @@ pub struct ReadOptions {
     pub reading: ros::Reading,
     /// The size of a cell in metres for formats that state none; without it 1 m, in images 0.05 m.
     pub resolution_m: Option<f64>,
+    /// How the values of an elevation become heights.
+    pub heights: HeightOptions,
 }
 
 /// Reads a map in the format that its ending names; a `.txt` that begins with `type ` is a `MovingAI` map.
-/// The map is always of squares.
+/// The map is always of squares. An elevation becomes a map in which every cell with a height is free.
 ///
 /// The image of a `.yaml` is looked for in the YAML's folder, unless its path is absolute; `~/` at its beginning
 /// means that folder too.
 ///
 /// # Errors
-/// All errors of the formats, with the file. [`Error::BadFormat`] if a resolution is given for a `.yaml`.
+/// All errors of the formats, with the file. [`Error::BadFormat`] if a resolution is given for a file that states it.
 pub fn read_map(path: &Path, options: &ReadOptions) -> Result<(Map, MapFormat), Error> {
     let format = MapFormat::of(path)?;
     read_map_as(path, format, options).map_err(|error| error.in_file(path))
@@ -236,6 +242,12 @@ fn read_map_as(path: &Path, format: MapFormat, options: &ReadOptions) -> Result<
                 MapYaml { resolution_m: options.resolution_m.unwrap_or(default.resolution_m), ..default };
             Ok((ros::to_map(&raster::read_image(&bytes()?)?, &yaml, &options.reading)?, format))
         }
+        MapFormat::Elevation => {
+            let heights = HeightOptions { apart_m: options.resolution_m, ..options.heights };
+            let elevation = read_elevation(path, &heights)?.elevation;
+            let [across, down] = elevation.posts().apart_m;
+            Ok((Map::over(elevation, Lattice::Square, across.min(down), Ground::default())?, format))
+        }
         MapFormat::MovingAi => Ok((in_cells(movingai::read_map(&bytes()?)?)?, format)),
         MapFormat::Text => {
             let bytes = bytes()?;
@@ -246,6 +258,29 @@ fn read_map_as(path: &Path, format: MapFormat, options: &ReadOptions) -> Result<
             Ok((in_cells(Map::parse(Lattice::Square, text(bytes)?)?)?, format))
         }
     }
+}
+
+/// Reads the heights of the ground in the format that the ending names.
+///
+/// # Errors
+/// All errors of [`elevation::read`], with the file; [`Error::BadFormat`] if the ending names no format, or a
+/// distance of posts is given for a file that states it.
+pub fn read_elevation(path: &Path, options: &HeightOptions) -> Result<Relief, Error> {
+    let read = || {
+        let format = HeightFormat::of(path).ok_or_else(|| {
+            Error::file(
+                "the ending names no elevation; use .tif (GeoTIFF), .asc (ESRI grid), .png, .npy or .npz",
+            )
+        })?;
+        let relief = elevation::read(&read_bytes(path, MAX_MAP_BYTES)?, format, options)?;
+        if options.apart_m.is_some() && relief.georeference != Georeference::None {
+            return Err(Error::file(
+                "the file states the distance of its posts itself; leave --resolution out",
+            ));
+        }
+        Ok(relief)
+    };
+    read().map_err(|error| error.in_file(path))
 }
 
 fn read_ros(path: &Path, reading: ros::Reading) -> Result<Map, Error> {
@@ -337,6 +372,7 @@ pub fn write_map(path: &Path, map: &Map) -> Result<(), Error> {
             write_atomically(path, &raster::write_pgm(&image))
         }
         MapFormat::Text => write_atomically(path, map.to_text().as_bytes()),
+        MapFormat::Elevation => Err(Error::UnknownFormat { path: path.to_owned() }),
     }
 }
 

@@ -5,6 +5,7 @@
 //! | [`ros`] | ROS `map_server`: a YAML file and an image |
 //! | [`movingai`] | `MovingAI` benchmarks: `.map` and `.scen` |
 //! | [`raster`] | images: PNG, PGM, PPM |
+//! | [`elevation`] | heights of the ground: ESRI ASCII grid, `GeoTIFF`, gray PNG, `NumPy` |
 //! | [`robot`] | robots: TOML |
 //! | [`drive_log`] | encoder logs with ground truth: CSV |
 //! | [`calibration`] | what a calibration found: JSON |
@@ -30,6 +31,7 @@
 pub mod calibration;
 pub mod certificate;
 pub mod drive_log;
+pub mod elevation;
 mod error;
 pub mod files;
 pub mod movingai;

@@ -3,7 +3,7 @@
 use crate::certificate::CertificateReport;
 use crate::error::Error;
 use crate::robot::to_json;
-use activecell::{Cell, Dir, Effort, Map, Outcome, Program, Robot, Route, Rule};
+use activecell::{Cell, Dir, Effort, Elevation, Map, Outcome, Program, Robot, Route, Rule};
 use serde::Serialize;
 
 /// The version of the run files that are written.
@@ -26,6 +26,22 @@ pub struct RouteReport {
     pub turns: usize,
     /// The way driven, in metres.
     pub length_m: f64,
+    /// What counts as the length of a step on uneven ground, `surface` or `segments`; left out on a flat map, as are
+    /// the next four.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground: Option<&'static str>,
+    /// The way on the ground, in metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ground_m: Option<f64>,
+    /// All climbs together, in metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub climb_m: Option<f64>,
+    /// The steepest place along the way, up or down, in degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steepest_deg: Option<f64>,
+    /// The steepest slope across it, in degrees.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steepest_across_deg: Option<f64>,
     /// The wheel revolutions of that way, without the turns.
     pub revolutions: f64,
     /// The revolutions that each wheel makes in turns; 0 if the wheels are steered.
@@ -62,6 +78,9 @@ pub struct WaypointReport {
     pub turn_deg: i32,
     /// The run to this cell in wheel revolutions, negative backwards.
     pub revolutions: f64,
+    /// All climbs of the run together, in metres; left out on a flat map.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub climb_m: Option<f64>,
     /// The revolutions that each wheel makes in the turn.
     pub turn_revolutions: f64,
     /// The encoder ticks of the run, left and right wheel.
@@ -100,11 +119,19 @@ impl RouteReport {
             y: waypoint.cell.y,
             turn_deg: waypoint.turn_deg,
             revolutions: waypoint.revolutions,
+            climb_m: map.elevation().map(|_| waypoint.climb_m),
             turn_revolutions: waypoint.turn_revolutions,
             run_ticks: ticks.run,
             turn_ticks: ticks.turn,
         });
         let waypoints: Vec<WaypointReport> = waypoints.collect();
+        let uneven = map.elevation().is_some();
+        let ground_m = map.ground_m(route.cells());
+        let steps = route.cells().windows(2).map(|pair| map.profile_or_flat(pair[0], pair[1]));
+        let (along, across) = steps.fold((0.0f64, 0.0f64), |(along, across), step| {
+            (along.max(step.up).max(step.down), across.max(step.across))
+        });
+        let degrees = |slope: f64| uneven.then(|| slope.atan().to_degrees());
         Self {
             outcome: route.outcome().name(),
             lattice: lattice.name(),
@@ -112,7 +139,12 @@ impl RouteReport {
             steps: route.steps(),
             turns: program.turns(),
             length_m,
-            revolutions: robot.revolutions(length_m),
+            ground: uneven.then(|| map.ground().name()),
+            ground_m: uneven.then_some(ground_m),
+            climb_m: uneven.then(|| map.climb_m(route.cells())),
+            steepest_deg: degrees(along),
+            steepest_across_deg: degrees(across),
+            revolutions: robot.revolutions(ground_m),
             turn_revolutions: waypoints.iter().map(|waypoint| waypoint.turn_revolutions).sum(),
             drive_s: effort.time_s,
             energy_j: effort.energy_j,
@@ -145,6 +177,36 @@ struct RunMap {
     origin_m: [f64; 2],
     yaw_rad: f64,
     rows: Vec<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    elevation: Option<RunElevation>,
+}
+
+/// The heights under a map; null where there is none.
+#[derive(Serialize)]
+struct RunElevation {
+    ground: &'static str,
+    columns: u32,
+    rows: u32,
+    apart_m: [f64; 2],
+    corner_m: [f64; 2],
+    yaw_rad: f64,
+    heights_m: Vec<Option<f32>>,
+}
+
+impl RunElevation {
+    fn of(map: &Map, elevation: &Elevation) -> Self {
+        let posts = elevation.posts();
+        let heights = elevation.heights_m().iter();
+        Self {
+            ground: map.ground().name(),
+            columns: elevation.columns(),
+            rows: elevation.rows(),
+            apart_m: posts.apart_m,
+            corner_m: posts.corner_m,
+            yaw_rad: posts.yaw_rad,
+            heights_m: heights.map(|&height| (!height.is_nan()).then_some(height)).collect(),
+        }
+    }
 }
 
 /// A run as JSON: everything that is needed to drive it again.
@@ -162,6 +224,7 @@ pub fn write(map: &Map, robot: &Robot, from: Cell, to: Cell, route: &RouteReport
             origin_m: frame.origin_m,
             yaw_rad: frame.yaw_rad,
             rows: map.to_text().lines().map(str::to_owned).collect(),
+            elevation: map.elevation().map(|elevation| RunElevation::of(map, elevation)),
         },
         robot: to_json(robot),
         from: [from.x, from.y],

@@ -3,6 +3,7 @@
 
 mod common;
 
+use activecell_formats::elevation::{self, HeightFormat, HeightOptions};
 use activecell_formats::raster::{Channels, Image, read_image, read_pgm, read_png, write_png};
 use activecell_formats::ros::{MapYaml, Reading, to_map};
 use activecell_formats::{Error, drive_log, movingai, robot};
@@ -21,6 +22,12 @@ fn read_all(bytes: &[u8]) {
     }
     read_png(bytes).map_or_else(one_line, drop);
     read_pgm(bytes).map_or_else(one_line, drop);
+    for format in
+        [HeightFormat::Asc, HeightFormat::GeoTiff, HeightFormat::Png, HeightFormat::Npy, HeightFormat::Npz]
+    {
+        let options = HeightOptions { scale: Some(0.1), ..HeightOptions::default() };
+        elevation::read(bytes, format, &options).map_or_else(one_line, drop);
+    }
     if let Ok(image) = read_image(bytes) {
         to_map(&image, &MapYaml::default(), &Reading::default()).map_or_else(one_line, drop);
     }
@@ -43,6 +50,11 @@ fn good_files() -> Vec<Vec<u8>> {
         b"P6 2 1 300 aabbccddeeff".to_vec(),
         common::gray_png(9, 7),
         write_png(&rgba).unwrap(),
+        b"ncols 3\nnrows 2\nxllcenter 1\nyllcorner -2\ncellsize 0.5\nNODATA_value -9\n1 2 3\n4 -9 6.5\n".to_vec(),
+        common::npy("<i2", "(2, 3)", false, &[1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0]),
+        common::npz(&[("a.npy", &common::npy("<f4", "(1, 2)", false, &[0; 8]))]),
+        common::tiff(true),
+        common::tiff(false),
     ]
 }
 

@@ -54,7 +54,11 @@ fn a_ros_map_keeps_its_frame() {
     let map = Map::random(Lattice::Square, 20, 9, 0.4, 7).unwrap().in_frame(frame).unwrap();
     write_map(&path, &map).unwrap();
     for rules in [Rules::Humble, Rules::Jazzy] {
-        let options = ReadOptions { reading: Reading { rules, ..Reading::default() }, resolution_m: None };
+        let options = ReadOptions {
+            reading: Reading { rules, ..Reading::default() },
+            resolution_m: None,
+            ..ReadOptions::default()
+        };
         assert_eq!(read_map(&path, &options).unwrap().0, map);
     }
     let yaml = fs::read_to_string(&path).unwrap();

@@ -5,6 +5,7 @@
 
 use crate::colour::Rgb;
 use crate::figure::Figure;
+use crate::hills;
 use crate::layout::{Layout, MOVING};
 use crate::legend::{Key, active_disc};
 use crate::palette::{Palette, SAME, wave_tint};
@@ -40,11 +41,12 @@ pub(crate) fn gif(picture: &RoutePicture<'_>) -> Result<Vec<u8>, Error> {
     keys.extend(figure.keys());
     let mut page = figure.page(&keys, Some(picture));
     page.shapes.push(figure.floor());
+    page.shapes.extend(hills::tints(layout, picture.map));
     let mut stage = Stage { below: raster::draw(&page)?, above: raster::canvas(&page)? };
     raster::draw_shapes(&mut stage.above, &figure.fixed());
 
     let marks = route::marks(layout, picture);
-    let mut film = Film::new(&stage.frame(&marks), PAUSE_CS)?;
+    let mut film = Film::new(&stage.frame(&marks), PAUSE_CS, picture.map.elevation().is_some())?;
     if let Some(wave) = picture.wave {
         show_wave(&mut film, &mut stage, &figure, wave, &marks)?;
     }
@@ -181,11 +183,11 @@ struct Film {
 
 impl Film {
     /// A film whose first frame covers all of it.
-    fn new(first: &Pixmap, delay_cs: u16) -> Result<Self, Error> {
+    fn new(first: &Pixmap, delay_cs: u16, uneven: bool) -> Result<Self, Error> {
         let (width, height) = (first.width(), first.height());
         let size = |size: u32| u16::try_from(size).map_err(|_| Error::Canvas { width, height });
         let (w, h) = (size(width)?, size(height)?);
-        let mut palette = Palette::new();
+        let mut palette = Palette::new(uneven);
         let mut encoder =
             gif::Encoder::new(Vec::new(), w, h, &palette.bytes()).map_err(|error| encoding(&error))?;
         encoder.set_repeat(gif::Repeat::Infinite).map_err(|error| encoding(&error))?;

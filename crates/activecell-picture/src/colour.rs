@@ -31,6 +31,9 @@ pub(crate) const YELLOW: Rgb = Rgb(0xf0, 0xe4, 0x42);
 /// The wave near the target, half way, and far from it: ever darker, from yellow to blue.
 const WAVE: [Rgb; 3] = [Rgb(0xff, 0xf3, 0xbf), Rgb(0xd8, 0xec, 0xdc), Rgb(0xc6, 0xcc, 0xea)];
 
+/// Low, middle and high ground: light, so that routes stand out on it.
+const HEIGHTS: [Rgb; 3] = [Rgb(0xd3, 0xe3, 0xcb), Rgb(0xf3, 0xea, 0xcd), Rgb(0xe6, 0xd0, 0xbb)];
+
 impl Rgb {
     /// The colour `share` (0 to 1) of the way to another.
     pub(crate) fn mix(self, other: Self, share: f64) -> Self {
@@ -48,8 +51,18 @@ impl Rgb {
     }
 }
 
+/// The tint of ground that is `share` (0 to 1) of the way from the lowest to the highest.
+pub(crate) fn height(share: f64) -> Rgb {
+    between(HEIGHTS, share)
+}
+
 /// The tint of a cell that the wave reached after `share` (0 to 1) of its run.
 pub(crate) fn wave(share: f64) -> Rgb {
+    between(WAVE, share)
+}
+
+/// The colour `share` (0 to 1) of the way through three.
+fn between([low, middle, high]: [Rgb; 3], share: f64) -> Rgb {
     let share = 2.0 * share.clamp(0.0, 1.0);
-    if share < 1.0 { WAVE[0].mix(WAVE[1], share) } else { WAVE[1].mix(WAVE[2], share - 1.0) }
+    if share < 1.0 { low.mix(middle, share) } else { middle.mix(high, share - 1.0) }
 }

@@ -2,6 +2,7 @@
 
 use crate::colour::{self, CLOSED, EDGE, FLOOR, GRID, OBSTACLE, PAGE, TEXT};
 use crate::font;
+use crate::hills;
 use crate::layout::{Layout, Style};
 use crate::legend::{self, Key};
 use crate::outline;
@@ -39,15 +40,18 @@ impl<'a> Figure<'a> {
     pub(crate) fn still(&self, picture: Option<&RoutePicture<'_>>) -> Scene {
         let mut keys = Vec::new();
         let mut shapes = vec![self.floor()];
+        shapes.extend(hills::tints(&self.layout, self.map));
         let mut above = Vec::new();
         if let Some(picture) = picture {
             let drawn = route::Route::new(&self.layout, picture);
-            if let Some(wave) = picture.wave {
+            // On uneven ground the tints show its height.
+            let wave = picture.wave.filter(|_| self.map.elevation().is_none());
+            if let Some(wave) = wave {
                 shapes.extend(self.wave(wave));
             }
             shapes.extend(drawn.tints());
             above = drawn.lines_and_marks();
-            keys = drawn.keys(picture.wave.is_some());
+            keys = drawn.keys(wave.is_some());
         }
         keys.extend(self.keys());
         shapes.extend(self.fixed());
@@ -104,7 +108,8 @@ impl<'a> Figure<'a> {
         let walls = self.behind.unwrap_or(self.map);
         let obstacle = has_obstacles(walls).then_some(Key::Obstacle);
         let closed = (self.behind.is_some() && has_obstacles(self.map)).then_some(Key::Closed);
-        obstacle.into_iter().chain(closed)
+        let height = self.map.elevation().map(|_| Key::Height);
+        height.into_iter().chain(obstacle).chain(closed)
     }
 
     /// The floor, under everything.
@@ -114,8 +119,9 @@ impl<'a> Figure<'a> {
 
     /// What lies above tints and does not change: grid, obstacles, the floor's edge.
     pub(crate) fn fixed(&self) -> Vec<Shape> {
-        let mut shapes = Vec::new();
-        if self.layout.cell >= GRID_PX {
+        let mut shapes: Vec<Shape> = hills::shading(&self.layout, self.map).into_iter().collect();
+        // Light and shadow are to be seen, not lines across them.
+        if self.layout.cell >= GRID_PX && self.map.elevation().is_none() {
             shapes.push(Shape::lines(self.grid(), Line::new(GRID, 1.0)));
         }
         if has_obstacles(self.map) {

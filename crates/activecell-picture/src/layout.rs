@@ -115,6 +115,12 @@ impl Layout {
         [self.origin[0] + x * px, self.origin[1] + (map.size_m()[1] - y) * px]
     }
 
+    /// The point of the floor, in metres, at a point of the page.
+    pub(crate) fn point_m(&self, map: &Map, [x, y]: Point) -> PointM {
+        let metre = map.frame().cell_m / self.cell;
+        map.frame().to_floor([(x - self.origin[0]) * metre, map.size_m()[1] - (y - self.origin[1]) * metre])
+    }
+
     /// The middle of a cell.
     pub(crate) fn centre(&self, cell: Cell) -> Point {
         self.point(self.lattice.centre(cell))

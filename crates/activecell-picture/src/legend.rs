@@ -8,7 +8,7 @@ use crate::layout::{Layout, round_length};
 use crate::region;
 use crate::route;
 use crate::scene::{Line, Point, Shape, Text};
-use activecell::Map;
+use activecell::{Elevation, Map};
 
 /// Something that the legend explains.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,14 +23,15 @@ pub(crate) enum Key {
     Wave,
     Obstacle,
     Closed,
+    Height,
 }
 
 /// Swatches of the wave's colours.
 const SWATCHES: usize = 16;
 
 impl Key {
-    const fn label(self) -> &'static str {
-        match self {
+    fn label(self, map: &Map) -> String {
+        let label = match self {
             Self::Start => "start",
             Self::Target => "target",
             Self::Route => "route",
@@ -41,14 +42,16 @@ impl Key {
             Self::Wave => "wave, near to far",
             Self::Obstacle => "obstacle",
             Self::Closed => "no room",
-        }
+            Self::Height => return heights(map),
+        };
+        label.to_owned()
     }
 
     /// Width of the icon, in multiples of the text's size.
     const fn icon_width(self) -> f64 {
         match self {
             Self::Route | Self::Trapped | Self::Region => 2.0,
-            Self::Wave => 4.0,
+            Self::Wave | Self::Height => 4.0,
             Self::Turn => 0.8,
             _ => 1.2,
         }
@@ -76,10 +79,11 @@ impl Key {
                 let ellipse = region::ellipse(0.4, |across, up| [middle[0] + across * size, y - up * size]);
                 shapes.extend(region::outline(vec![ellipse]));
             }
-            Self::Wave => {
+            Self::Wave | Self::Height => {
                 let step = width / SWATCHES as f64;
                 for i in 0..SWATCHES {
-                    let tint = colour::wave(i as f64 / (SWATCHES - 1) as f64);
+                    let share = i as f64 / (SWATCHES - 1) as f64;
+                    let tint = if self == Self::Wave { colour::wave(share) } else { colour::height(share) };
                     let left = x + i as f64 * step;
                     // Each swatch reaches below all that follow: no seams.
                     let rest = x + width - left;
@@ -102,6 +106,13 @@ pub(crate) fn active_disc(centre: Point, radius: f64) -> Shape {
     Shape::Disc { centre, radius, fill: YELLOW, line: Some(Line::new(ORANGE_RIM, (radius * 0.2).max(1.4))) }
 }
 
+/// The lowest and the highest ground.
+fn heights(map: &Map) -> String {
+    let [low, high] = map.elevation().and_then(Elevation::range_m).unwrap_or_default();
+    let digits = usize::from(high - low < 20.0);
+    format!("ground {low:.digits$} to {high:.digits$} m")
+}
+
 fn rectangle(x: f64, y: f64, width: f64, height: f64) -> Vec<Point> {
     vec![[x, y], [x + width, y], [x + width, y + height], [x, y + height]]
 }
@@ -121,12 +132,13 @@ pub(crate) fn footer(layout: &Layout, map: &Map, keys: &[Key], top: f64) -> (Vec
     let mut at = [left, top + row / 2.0];
     at[0] += scale_bar(&mut shapes, layout, map, at) + gap;
     for key in keys {
-        let width = key.icon_width() * size + space + font::width(key.label(), size, false);
+        let label = key.label(map);
+        let width = key.icon_width() * size + space + font::width(&label, size, false);
         if at[0] + width > right && at[0] > left {
             at = [left, at[1] + row];
         }
         key.icon(&mut shapes, at, size);
-        text(&mut shapes, [at[0] + key.icon_width() * size + space, at[1]], size, key.label());
+        text(&mut shapes, [at[0] + key.icon_width() * size + space, at[1]], size, &label);
         at[0] += width + gap;
     }
     (shapes, at[1] + row / 2.0 - top)

@@ -37,6 +37,7 @@ mod control;
 mod drives;
 mod figure;
 mod font;
+mod hills;
 mod layout;
 mod legend;
 mod outline;

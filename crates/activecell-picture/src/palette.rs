@@ -2,7 +2,7 @@
 
 use crate::colour::{
     BLUE, BLUE_TINT, CLOSED, EDGE, FLOOR, GREEN, GRID, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE,
-    PURPLE_TINT, Rgb, TEXT, VERMILLION, YELLOW, wave,
+    PURPLE_TINT, Rgb, TEXT, VERMILLION, YELLOW, height, wave,
 };
 
 /// The tints of the wave in an animation.
@@ -25,7 +25,8 @@ pub(crate) struct Palette {
 }
 
 impl Palette {
-    pub(crate) fn new() -> Self {
+    /// For a map on `uneven` ground also its tints and the wave's in light and shadow.
+    pub(crate) fn new(uneven: bool) -> Self {
         // The first place is taken by “as before”.
         let mut colours = vec![PAGE];
         let mut add = |colour: Rgb| {
@@ -58,6 +59,15 @@ impl Palette {
             add(tint);
             add(tint.mix(GRID, 0.5));
             add(tint.mix(OBSTACLE, 0.5));
+        }
+        for i in (0..=6).filter(|_| uneven) {
+            for tint in [height(f64::from(i) / 6.0), wave(f64::from(i) / 6.0)] {
+                add(tint);
+                for share in [0.07, 0.14, 0.22, 0.31, 0.42] {
+                    add(tint.mix(Rgb(0, 0, 0), share));
+                }
+                add(tint.mix(PAGE, 0.3));
+            }
         }
         // What the edges of shapes blend into; the last number says how finely.
         let blends = [

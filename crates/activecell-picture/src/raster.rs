@@ -5,7 +5,7 @@ use crate::colour::Rgb;
 use crate::font;
 use crate::scene::{Line, Point, Scene, Shape, Text};
 use tiny_skia::{
-    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, StrokeDash, Transform,
+    FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Stroke, StrokeDash, Transform,
 };
 
 /// A canvas without colour.
@@ -34,6 +34,17 @@ pub(crate) fn draw_shapes(pixmap: &mut Pixmap, shapes: &[Shape]) {
                 draw_path(pixmap, disc, Some(*fill), line.as_ref());
             }
             Shape::Text(text) => draw_text(pixmap, text),
+            Shape::Image { at: [x, y], pixels } => {
+                let paint = PixmapPaint::default();
+                pixmap.draw_pixmap(
+                    *x as i32,
+                    *y as i32,
+                    pixels.as_ref(),
+                    &paint,
+                    Transform::identity(),
+                    None,
+                );
+            }
         }
     }
 }

@@ -1,6 +1,7 @@
 //! What is to be drawn, before it becomes SVG text or pixels: both back ends read this one list.
 
 use crate::colour::Rgb;
+use tiny_skia::Pixmap;
 
 /// A point in pixels from the top left corner.
 pub(crate) type Point = [f64; 2];
@@ -33,6 +34,11 @@ pub(crate) enum Shape {
         line: Option<Line>,
     },
     Text(Text),
+    /// Pixels with their upper left corner at a point.
+    Image {
+        at: Point,
+        pixels: Pixmap,
+    },
 }
 
 /// How a line is drawn.

@@ -58,6 +58,13 @@ impl Svg {
                 self.0.push_str("/>\n");
             }
             Shape::Text(text) => self.text(text),
+            Shape::Image { at, pixels } => {
+                // An image that cannot be written is left out; it explains, and is not what is explained.
+                let Ok(png) = pixels.encode_png() else { return };
+                let ([x, y], w, h) = (at.map(number), pixels.width(), pixels.height());
+                let data = base64(&png);
+                self.put(format_args!("<image x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" href=\"data:image/png;base64,{data}\"/>\n"));
+            }
         }
     }
 
@@ -150,6 +157,21 @@ fn number(value: f64) -> String {
     out.0
 }
 
+/// Bytes as text (RFC 4648).
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let word =
+            three.iter().fold(0u32, |word, &byte| word << 8 | u32::from(byte)) << (8 * (3 - three.len()));
+        for digit in 0..4 {
+            let known = digit <= three.len();
+            text.push(if known { DIGITS[(word >> (18 - 6 * digit) & 63) as usize].into() } else { '=' });
+        }
+    }
+    text
+}
+
 /// Text in which nothing reads as mark-up.
 fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
@@ -173,6 +195,12 @@ mod tests {
     fn numbers_are_short() {
         let written: Vec<String> = [0.0, 1.0, -1.0, 0.5, -0.25, 12.345, 0.05].map(number).to_vec();
         assert_eq!(written, ["0", "1", "-1", ".5", "-.25", "12.35", ".05"]);
+    }
+
+    #[test]
+    fn bytes_become_text_as_the_standard_says() {
+        let written = ["", "f", "fo", "foo", "foob", "fooba", "foobar"].map(|text| base64(text.as_bytes()));
+        assert_eq!(written, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"]);
     }
 
     #[test]

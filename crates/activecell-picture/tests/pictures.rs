@@ -293,3 +293,42 @@ fn a_route_is_never_lost_in_a_terminal() {
     assert!(text.contains('S') && text.contains('F'));
     assert!(text.chars().filter(|&c| c == 'o').count() > 30);
 }
+
+#[test]
+fn uneven_ground_is_lit_from_the_north_west() {
+    use activecell::{Elevation, Ground, Posts};
+    for lattice in Lattice::ALL {
+        // A ridge from South-West to North-East, of 8 posts by 8.
+        let heights = (0..64).map(|i| 1.0 - 0.3 * ((i % 8 + i / 8 - 7) as f32).abs().min(3.0));
+        let ridge = Elevation::new(8, 8, heights.collect(), Posts::default()).unwrap();
+        let flat = Map::random(lattice, 8, 8, 0.0, 1).unwrap();
+        let map = flat.clone().elevated(ridge.laid_over(&flat).unwrap(), Ground::Surface);
+        let picture = RoutePicture {
+            map: &map,
+            floor: None,
+            title: "ridge",
+            from: Cell::new(0, 7),
+            to: Cell::new(0, 7),
+            cells: &[],
+            turns: &[],
+            cycle: &[],
+            regions: &[],
+            wave: None,
+        };
+        let svg = svg(&picture);
+        // Pixels as text may spell anything.
+        let drawn: Vec<&str> = svg.lines().filter(|line| !line.starts_with("<image")).collect();
+        assert_well_formed(&drawn.join("\n"));
+        assert!(svg.contains("data:image/png;base64,") && svg.contains("ground 0.1 to 1.0 m"));
+        let pixmap = Pixmap::decode_png(&png(&picture).unwrap()).unwrap();
+        let (x, y) = start_px(&svg);
+        let light = |cell: Cell| {
+            let ([fx, fy], [cx, cy]) = (map.centre_m(Cell::new(0, 7)), map.centre_m(cell));
+            let at = ((x + (cx - fx) * 56.0) as u32, (y - (cy - fy) * 56.0) as u32);
+            rgb(&pixmap, at).map(u32::from).iter().sum::<u32>()
+        };
+        // Of two places of one height the one that faces the light is brighter.
+        assert!(light(Cell::new(2, 3)) > light(Cell::new(5, 4)) + 60, "{lattice}");
+        assert!(gif(&picture).unwrap().starts_with(b"GIF89a"));
+    }
+}

@@ -52,10 +52,12 @@ pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, Region, Trust, TrustedRoute};
 pub use lattice::{Cell, Dir, Lattice};
-pub use map::{BitPlane, Clearance, Frame, MAX_CELLS, Map, PointM, Tiling};
+pub use map::{
+    BitPlane, Clearance, Elevation, Frame, Ground, MAX_CELLS, Map, PointM, Posts, Profile, Tiling,
+};
 pub use program::{
     Drive, Effort, Errors, Motion, Pose, Power, Program, ProgramFault, Robot, Sensors, Slopes, Ticks,
-    Waypoint, Wheels, check_program, replay,
+    Waypoint, Wheels, check_program, check_slopes, replay,
 };
 pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route, check_terrain_route};

@@ -1,11 +1,13 @@
 //! The command line: every option and its help.
 
 mod calibrate;
+mod ground;
 mod place;
 
 use activecell::{Lattice, Rule};
 pub(crate) use calibrate::CalibrateArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use ground::GroundArgs;
 pub(crate) use place::{Place, heading};
 use std::path::PathBuf;
 
@@ -54,7 +56,7 @@ pub(crate) enum Command {
 /// How to read a map, and the cells to cover it with.
 #[derive(Debug, Args)]
 pub(crate) struct MapArgs {
-    /// The floor: a ROS .yaml, a MovingAI .map, an image .png or .pgm, a text .txt
+    /// The floor: a ROS .yaml, a MovingAI .map, an image .png or .pgm, a text .txt; or ground alone: .asc, .tif, .npy, .npz
     #[arg(value_name = "MAP")]
     pub(crate) path: PathBuf,
     /// The mosaic
@@ -97,6 +99,8 @@ Examples:
 pub(crate) struct RouteArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) ground: GroundArgs,
     /// Where the robot is
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     pub(crate) from: Place,
@@ -178,6 +182,8 @@ Example:
 pub(crate) struct InfoArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
+    #[command(flatten)]
+    pub(crate) ground: GroundArgs,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

@@ -4,6 +4,7 @@ use super::embed;
 use super::load::{self, Loaded};
 use crate::args::InfoArgs;
 use crate::terminal::Terminal;
+use activecell::Elevation;
 use activecell_formats::files::MapFormat;
 use serde::Serialize;
 
@@ -22,13 +23,18 @@ struct Report {
     regions: usize,
     largest_region: usize,
     marks: Vec<(char, [i32; 2])>,
+    /// The lowest and the highest post; left out without an elevation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    height_m: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steepest_deg: Option<f64>,
 }
 
 pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
     if embed::is_embedded(&args.map.path) {
         return embed::describe(&args.map.path, args.json);
     }
-    let Loaded { map, format, .. } = load::map(&args.map, None, terminal)?;
+    let Loaded { map, format, .. } = load::on_ground(&args.map, Some(&args.ground), None, terminal)?;
     let regions = map.regions();
     let frame = map.frame();
     let report = Report {
@@ -45,6 +51,8 @@ pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
         regions: regions.len(),
         largest_region: regions.first().copied().unwrap_or(0),
         marks: map.marks().iter().map(|&(name, cell)| (name, [cell.x, cell.y])).collect(),
+        height_m: map.elevation().and_then(Elevation::range_m),
+        steepest_deg: map.elevation().map(Elevation::steepest_deg),
     };
     if args.json {
         return Terminal::result(&(serde_json::to_string(&report)? + "\n"));
@@ -52,7 +60,7 @@ pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
     let cells = map.cells().max(1) as f64;
     let free = report.free_cells.max(1) as f64;
     let marks: Vec<String> = map.marks().iter().map(|(name, cell)| format!("{name} {cell}")).collect();
-    let lines = [
+    let mut lines = vec![
         format!("{} ({})", report.map, report.format),
         format!(
             "cells     {} x {} {}, {} m each",
@@ -71,6 +79,14 @@ pub(crate) fn run(args: &InfoArgs, terminal: &Terminal) -> anyhow::Result<()> {
         ),
         format!("marks     {}", if marks.is_empty() { "none".to_owned() } else { marks.join(", ") }),
     ];
+    if let (Some([low, high]), Some(steepest_deg)) = (report.height_m, report.steepest_deg) {
+        let posts = map.elevation().map_or([0.0; 2], |elevation| elevation.posts().apart_m);
+        lines.push(format!(
+            "heights   {low:.2} m to {high:.2} m, on posts {:.2} m x {:.2} m apart",
+            posts[0], posts[1]
+        ));
+        lines.push(format!("slopes    up to {steepest_deg:.1}°"));
+    }
     Terminal::result(&(lines.join("\n") + "\n"))
 }
 
@@ -81,5 +97,6 @@ fn name(format: MapFormat) -> &'static str {
         MapFormat::Png => "PNG",
         MapFormat::Pgm => "PGM",
         MapFormat::Text => "text",
+        MapFormat::Elevation => "elevation",
     }
 }

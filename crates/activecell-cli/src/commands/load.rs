@@ -1,6 +1,7 @@
 //! From the arguments to a map and a robot.
 
-use crate::args::{MapArgs, RulesArg, UnknownArg};
+use super::relief;
+use crate::args::{GroundArgs, MapArgs, RulesArg, UnknownArg};
 use crate::terminal::Terminal;
 use activecell::{Lattice, Map, Robot, Tiling};
 use activecell_formats::files::{self, MapFormat, ReadOptions};
@@ -19,16 +20,27 @@ pub(crate) struct Loaded {
 
 /// Reads the map and covers it with the cells that the arguments ask for.
 pub(crate) fn map(args: &MapArgs, robot: Option<&Robot>, terminal: &Terminal) -> anyhow::Result<Loaded> {
-    let rules = match args.map_rules {
-        RulesArg::Humble => ros::Rules::Humble,
-        RulesArg::Jazzy => ros::Rules::Jazzy,
-    };
-    let unknown_is_free = args.unknown == UnknownArg::Free;
-    let reading = ros::Reading { rules, unknown_is_free, occupied_from: args.occupied_from };
+    on_ground(args, None, robot, terminal)
+}
+
+/// As [`map`], on the ground that the arguments name, if they do.
+pub(crate) fn on_ground(
+    args: &MapArgs,
+    ground: Option<&GroundArgs>,
+    robot: Option<&Robot>,
+    terminal: &Terminal,
+) -> anyhow::Result<Loaded> {
     let _working = terminal.working(format!("reading {}", args.path.display()));
-    let options = ReadOptions { reading, resolution_m: args.resolution };
-    let (image, format) = files::read_map(&args.path, &options)?;
     let lattice = Lattice::from(args.lattice);
+    // Re-tiling begins with squares.
+    let first = if args.cell.is_some() { Lattice::Square } else { lattice };
+    let (image, format) = if MapFormat::of(&args.path)? == MapFormat::Elevation {
+        (relief::alone(args, ground, first, terminal)?, MapFormat::Elevation)
+    } else {
+        let (image, format) = files::read_map(&args.path, &options(args))?;
+        // Hexagons do not lie where the pixels did: the ground goes under the cells that there are.
+        (relief::under(image.on(first), ground, terminal)?, format)
+    };
     let Some(cell_m) = args.cell else {
         let (width_m, cell_m) = (2.0 * robot.copied().unwrap_or_default().radius_m, image.frame().cell_m);
         if width_m > cell_m {
@@ -36,7 +48,7 @@ pub(crate) fn map(args: &MapArgs, robot: Option<&Robot>, terminal: &Terminal) ->
                 "note: each pixel of {cell_m} m is a cell, and a robot of {width_m} m does not fit; --cell re-tiles the floor for it"
             ));
         }
-        return Ok(Loaded { map: image.on(lattice), floor: None, format });
+        return Ok(Loaded { map: image, floor: None, format });
     };
     let radius_m = args.radius.or(robot.map(|robot| robot.radius_m)).unwrap_or(cell_m / 2.0);
     let tiling = Tiling { lattice, cell_m, radius_m, tolerance: args.tolerance };
@@ -47,6 +59,17 @@ pub(crate) fn map(args: &MapArgs, robot: Option<&Robot>, terminal: &Terminal) ->
         tiled.height()
     ));
     Ok(Loaded { map: tiled, floor: Some(image), format })
+}
+
+/// How the arguments say to read a map.
+fn options(args: &MapArgs) -> ReadOptions {
+    let rules = match args.map_rules {
+        RulesArg::Humble => ros::Rules::Humble,
+        RulesArg::Jazzy => ros::Rules::Jazzy,
+    };
+    let unknown_is_free = args.unknown == UnknownArg::Free;
+    let reading = ros::Reading { rules, unknown_is_free, occupied_from: args.occupied_from };
+    ReadOptions { reading, resolution_m: args.resolution, ..ReadOptions::default() }
 }
 
 /// The most bytes that a robot file may have.

@@ -7,6 +7,7 @@ mod convert;
 mod embed;
 mod info;
 mod load;
+mod relief;
 mod route;
 mod scen;
 mod success;

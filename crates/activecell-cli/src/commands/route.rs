@@ -7,7 +7,7 @@ use crate::args::{DrawArg, PreferArg, RouteArgs, WrongArgument, heading};
 use crate::terminal::Terminal;
 use activecell::{
     Cell, Dir, Field, Map, Outcome, Program, Region, Robot, Route, Rule, Terrain, WeightedField,
-    check_program,
+    check_program, check_slopes,
 };
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
@@ -38,8 +38,8 @@ struct Solved {
 /// The field that the rule `wave` follows.
 enum Flooded {
     Plain(Field),
-    /// Where walls are kept off.
-    Weighted(WeightedField),
+    /// Where walls are kept off, or the ground is uneven.
+    Weighted(Box<WeightedField>),
 }
 
 impl Flooded {
@@ -105,10 +105,14 @@ pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done>
 
 fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let given = args.robot.as_deref().map(load::robot).transpose()?;
-    let Loaded { map, floor, .. } = load::map(&args.map, given.as_ref(), terminal)?;
+    let Loaded { map, floor, .. } = load::on_ground(&args.map, Some(&args.ground), given.as_ref(), terminal)?;
     let (own_robot, robot) = (given.is_some(), given.unwrap_or_default());
     let facing = args.heading.as_deref().map(|name| heading(map.lattice(), name)).transpose()?;
     let (from, wanted_to) = (args.from.on(&map)?, args.to.on(&map)?);
+    let uneven = map.elevation().is_some();
+    if uneven {
+        check_uneven(args)?;
+    }
     let to = if args.nearest { map.nearest_reachable(from, wanted_to)? } else { wanted_to };
     if to != wanted_to {
         terminal.note(&format!("note: there is no way to {wanted_to}; the nearest cell with one is {to}"));
@@ -118,9 +122,17 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let started = Instant::now();
     let rule = Rule::from(args.rule);
     map.check_task(from, to)?;
-    let wanted = args.clearance.map(|wanted_m| map.terrain_kept_clear(from, to, wanted_m)).transpose()?;
+    let wanted = match args.clearance {
+        Some(wanted_m) => Some(map.terrain_kept_clear(from, to, wanted_m)?),
+        None if uneven => {
+            let terrain = map.terrain_for(&robot)?;
+            terrain.map().check_task(from, to)?;
+            Some(terrain)
+        }
+        None => None,
+    };
     let field = match (rule, &wanted) {
-        (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(terrain.wave(to)?)),
+        (Rule::Wave, Some(terrain)) => Some(Flooded::Weighted(Box::new(terrain.wave(to)?))),
         (Rule::Wave, None) => Some(Flooded::Plain(map.wave(to)?)),
         _ => None,
     };
@@ -142,6 +154,7 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     let program = route.program(&robot, &map, facing);
     route.check(&map, from, to)?;
     check_program(&map, &robot, &program, route.cells())?;
+    check_slopes(&map, &robot, route.cells())?;
     let mut report = RouteReport::new(rule, &route, &program, &robot, &map, seconds);
     report.clearance_m = args.clearance.and_then(|_| map.clearance_m(route.cells()));
     let certified = (own_robot && route.outcome() == Outcome::Arrived)
@@ -158,6 +171,22 @@ fn check_preference(args: &RouteArgs) -> Result<(), WrongArgument> {
         _ if Rule::from(args.rule) != Rule::Wave => wrong("the rule wave; leave out --rule"),
         _ if args.clearance.is_some() => wrong("a free choice of the way; leave out --clearance"),
         _ => Ok(()),
+    }
+}
+
+/// Refuses what does not look at slopes.
+fn check_uneven(args: &RouteArgs) -> Result<(), WrongArgument> {
+    let refuse = |what: &str| {
+        Err(WrongArgument(format!(
+            "{what} does not look at slopes; leave it out, or leave the elevation out"
+        )))
+    };
+    match Rule::from(args.rule) {
+        Rule::Wave if args.clearance.is_some() => refuse("--clearance"),
+        Rule::Wave if args.nearest => refuse("--nearest"),
+        Rule::Wave if args.prefer != PreferArg::FewTurns => refuse("--prefer short or trusted"),
+        Rule::Wave => Ok(()),
+        other => refuse(&format!("--rule {}", other.name())),
     }
 }
 
@@ -185,6 +214,12 @@ fn text(solved: &Solved) -> String {
     }
     if program.waypoints.len() == 1 && route.steps() == 0 {
         return text + "the robot is there already\n";
+    }
+    if let (Some(ground_m), Some(climb_m), Some(deg)) = (report.ground_m, report.climb_m, report.steepest_deg)
+    {
+        text += &format!(
+            "on the ground: {ground_m:.2} m, climbing {climb_m:.2} m; steepest slope on the way {deg:.1}°\n"
+        );
     }
     if let Some(clearance_m) = report.clearance_m {
         text += &format!("clearance: {clearance_m:.2} m\n");

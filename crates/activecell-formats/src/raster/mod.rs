@@ -4,6 +4,7 @@ mod netpbm;
 mod portable;
 
 pub use netpbm::{read_pgm, write_pgm};
+pub(crate) use portable::{MOST_EXPANSION, damaged, decoder};
 pub use portable::{read_png, write_png};
 
 use crate::error::Error;

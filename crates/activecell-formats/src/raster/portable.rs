@@ -3,9 +3,10 @@
 use super::{Channels, Image, check_size};
 use crate::error::Error;
 use png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
+use std::io::Cursor;
 
 /// DEFLATE makes at most 1032 bytes of one: 258 bytes from a match of two bits.
-const MOST_EXPANSION: u64 = 1032;
+pub(crate) const MOST_EXPANSION: u64 = 1032;
 /// For ancillary chunks and the rows at work; the image itself is counted apart.
 const DECODER_BYTES: usize = 64 << 20;
 
@@ -19,11 +20,8 @@ pub fn read_png(bytes: &[u8]) -> Result<Image, Error> {
     if bytes.is_empty() {
         return Err(Error::file("the file is empty; expected a PNG image"));
     }
-    let limits = Limits { bytes: DECODER_BYTES };
-    let mut decoder = Decoder::new_with_limits(std::io::Cursor::new(bytes), limits);
+    let mut decoder = decoder(bytes);
     decoder.set_transformations(Transformations::EXPAND | Transformations::STRIP_16);
-    decoder.set_ignore_text_chunk(true);
-    decoder.set_ignore_iccp_chunk(true);
     let header = decoder.read_header_info().map_err(|error| damaged(&error))?;
     let (width, height) = (u64::from(header.width), u64::from(header.height));
     let bits = header.bits_per_pixel() as u64;
@@ -59,7 +57,15 @@ pub fn read_png(bytes: &[u8]) -> Result<Image, Error> {
     Image::new(frame.width, frame.height, channels, samples)
 }
 
-fn damaged(error: &DecodingError) -> Error {
+/// A decoder that takes little memory and reads the image alone.
+pub(crate) fn decoder(bytes: &[u8]) -> Decoder<Cursor<&[u8]>> {
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: DECODER_BYTES });
+    decoder.set_ignore_text_chunk(true);
+    decoder.set_ignore_iccp_chunk(true);
+    decoder
+}
+
+pub(crate) fn damaged(error: &DecodingError) -> Error {
     let cut = |error: &std::io::Error| error.kind() == std::io::ErrorKind::UnexpectedEof;
     Error::file(match error {
         DecodingError::IoError(error) if cut(error) => {

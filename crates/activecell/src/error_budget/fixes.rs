@@ -49,7 +49,9 @@ impl Fixes {
             return found;
         }
         let cells = cells(map, robot, program);
-        if let Some((_, Some(turn))) = path::legs(robot, program).next().filter(|(run, _)| run.is_empty()) {
+        if let Some((_, Some(turn))) =
+            path::legs(map, robot, program).next().filter(|(run, _)| run.is_empty())
+        {
             walk.drive(turn);
         }
         // Where the robot is: after so many steps, where a fix was made last.
@@ -90,7 +92,7 @@ fn cells(map: &Map, robot: &Robot, program: &Program) -> Vec<(Vec<Leg>, Cell, Op
     let lattice = map.lattice();
     let mut cell = program.start;
     let mut pose = path::start(map, program);
-    for ((run, turn), waypoint) in path::legs(robot, program).zip(&program.waypoints) {
+    for ((run, turn), waypoint) in path::legs(map, robot, program).zip(&program.waypoints) {
         let steps = lattice.distance(cell, waypoint.cell);
         for step in 1..=steps {
             let mut legs: Vec<Leg> = run.clone();

@@ -116,7 +116,7 @@ impl Certificate {
     ) -> Self {
         let mut walk = Walk::new(map, robot, path::start(map, program));
         let mut waypoints = Vec::with_capacity(program.waypoints.len());
-        for ((run, turn), waypoint) in path::legs(robot, program).zip(&program.waypoints) {
+        for ((run, turn), waypoint) in path::legs(map, robot, program).zip(&program.waypoints) {
             for leg in run {
                 walk.drive(leg);
             }

@@ -46,11 +46,11 @@ pub(super) fn start(map: &Map, program: &Program) -> Pose {
 /// For each waypoint what leads to it and what is done there before the next run. A robot that does not run does
 /// not stop, one that does not turn has no error of turning.
 pub(super) fn legs<'a>(
-    robot: &'a Robot,
+    map: &Map,
+    robot: &Robot,
     program: &'a Program,
 ) -> impl Iterator<Item = (Vec<Leg>, Option<Leg>)> + 'a {
-    program.waypoints.iter().map(|waypoint| {
-        let length_m = waypoint.revolutions * robot.wheel_perimeter_m;
+    program.waypoints.iter().zip(program.runs_m(map, robot)).map(|(waypoint, length_m)| {
         let run = if length_m == 0.0 { Vec::new() } else { vec![Leg::Run(length_m), Leg::Stop] };
         // Programs count turns clockwise, poses counter-clockwise.
         let turn_rad = -f64::from(waypoint.turn_deg).to_radians();

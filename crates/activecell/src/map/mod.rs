@@ -3,13 +3,17 @@
 mod area;
 mod bits;
 mod clearance;
+mod elevation;
 mod frame;
+mod profile;
 mod retile;
 mod text;
 
 pub use bits::{BitPlane, MAX_CELLS};
 pub use clearance::Clearance;
+pub use elevation::{Elevation, Posts};
 pub use frame::{Frame, PointM};
+pub use profile::{Ground, Profile};
 pub use retile::Tiling;
 
 use crate::error::Error;
@@ -34,12 +38,19 @@ pub struct Map {
     obstacles: Arc<BitPlane>,
     frame: Frame,
     marks: Arc<[(char, Cell)]>,
+    relief: Option<(Elevation, Ground)>,
 }
 
 impl Map {
     /// A map of these obstacles, in cells of 1 m.
     pub fn new(lattice: Lattice, obstacles: BitPlane) -> Self {
-        Self { lattice, obstacles: Arc::new(obstacles), frame: Frame::default(), marks: Arc::new([]) }
+        Self {
+            lattice,
+            obstacles: Arc::new(obstacles),
+            frame: Frame::default(),
+            marks: Arc::new([]),
+            relief: None,
+        }
     }
 
     /// A map in which each cell is an obstacle with probability `density`, the same for the same seed.

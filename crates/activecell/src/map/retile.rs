@@ -1,6 +1,6 @@
 //! Re-tiling: an occupancy image becomes cells of a given size in which a robot of a given radius fits.
 
-use super::{BitPlane, Frame, Map, mosaic_size_m};
+use super::{BitPlane, Frame, Map, PointM, mosaic_size_m};
 use crate::error::Error;
 use crate::lattice::{Cell, Lattice};
 
@@ -55,7 +55,7 @@ impl Map {
         if !(0.0..=1.0).contains(&tiling.tolerance) {
             return bad("the tolerance", tiling.tolerance, "between 0 and 1");
         }
-        let (width, height) = mosaic_cells(self, tiling);
+        let (width, height) = mosaic_cells(self.size_m(), tiling);
         let mut obstacles = BitPlane::new(width, height)?;
         let floor = Floor::new(self, tiling);
         floor.block_cells(&mut obstacles);
@@ -66,13 +66,16 @@ impl Map {
         let tiled = Self::new(tiling.lattice, obstacles).in_frame(Frame { origin_m, ..frame })?;
         let marks = self.marks.iter().map(|&(name, cell)| (name, tiled.cell_at_m(self.centre_m(cell))));
         let marks: Vec<(char, Cell)> = marks.filter(|&(_, cell)| tiled.contains(cell)).collect();
-        Ok(Self { marks: marks.into(), ..tiled })
+        let tiled = Self { marks: marks.into(), ..tiled };
+        Ok(match &self.relief {
+            Some((elevation, ground)) => tiled.elevated(elevation.clone(), *ground),
+            None => tiled,
+        })
     }
 }
 
-/// How many columns and rows cover the image; huge numbers saturate and are refused by [`BitPlane::new`].
-fn mosaic_cells(image: &Map, tiling: &Tiling) -> (u64, u64) {
-    let [width_m, height_m] = image.size_m();
+/// How many columns and rows cover an area; huge numbers saturate and are refused by [`BitPlane::new`].
+pub(super) fn mosaic_cells([width_m, height_m]: PointM, tiling: &Tiling) -> (u64, u64) {
     let (_, uy) = tiling.lattice.unit_m();
     // A floor of 3.0000000001 cells has 3.
     let whole = |count: f64| (count - 1e-6).ceil().max(1.0) as u64;

@@ -63,7 +63,8 @@ impl Program {
     ///
     /// Each run speeds up and slows down with the robot's acceleration, and reaches its highest speed if it is long
     /// enough. The energy is what the robot draws at rest for all that time, and for each run rolling resistance and
-    /// the speed that braking wastes; a differential drive's turns cost both too.
+    /// the speed that braking wastes; a differential drive's turns cost both too. Climbing costs weight × height;
+    /// nothing is gained downhill.
     ///
     /// ```
     /// use activecell::{Cell, Lattice, Map, Robot, Rule};
@@ -106,7 +107,9 @@ fn effort(robot: &Robot, waypoint: &Waypoint) -> Effort {
         _ => (0.0, 0.0),
     };
     let drag_j = power.mass_kg * GRAVITY_MPS2 * power.rolling_resistance * (run_m + arc_m);
+    let climb_j = power.mass_kg * GRAVITY_MPS2 * waypoint.climb_m;
     let speed_j = 0.5 * power.mass_kg * top_mps.powi(2);
     let time_s = run_s + turn_s;
-    Effort { time_s, energy_j: power.idle_w * time_s + (drag_j + speed_j + spin_j) / power.drive_efficiency }
+    let wheels_j = drag_j + climb_j + speed_j + spin_j;
+    Effort { time_s, energy_j: power.idle_w * time_s + wheels_j / power.drive_efficiency }
 }

@@ -4,11 +4,13 @@ mod drive;
 mod motion;
 mod replay;
 mod robot;
+mod slopes;
 
 pub use drive::{Effort, Ticks};
 pub use motion::{Motion, Pose, Wheels};
 pub use replay::{ProgramFault, check_program, replay};
 pub use robot::{Drive, Errors, Power, Robot, Sensors, Slopes};
+pub use slopes::check_slopes;
 
 use crate::lattice::{Cell, Dir};
 use crate::map::Map;
@@ -19,8 +21,10 @@ use crate::route::Route;
 pub struct Waypoint {
     /// Where the run ends.
     pub cell: Cell,
-    /// Wheel revolutions of the run to this cell; negative backwards.
+    /// Wheel revolutions of the run to this cell, over the ground; negative backwards.
     pub revolutions: f64,
+    /// All climbs of the run together, in metres; what goes down again is not taken off. 0 on a flat floor.
+    pub climb_m: f64,
     /// The turn made there: degrees, right (clockwise) positive. 0 at the target, and where the robot only
     /// changes between forwards and backwards.
     pub turn_deg: i32,
@@ -46,6 +50,30 @@ impl Program {
         self.waypoints.iter().filter(|waypoint| waypoint.turn_deg != 0).count()
     }
 
+    /// How far each run takes the robot over the map, in metres, negative backwards. On a flat floor that is what its
+    /// wheels roll; on uneven ground they roll more, and it is the distance between the cells.
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice, Map, Robot, Rule};
+    /// let map = Map::parse(Lattice::Square, "S..F")?;
+    /// let robot = Robot::default();
+    /// let route = map.route(Rule::Wave, Cell::new(0, 0), Cell::new(3, 0), 100)?;
+    /// assert_eq!(route.program(&robot, &map, None).runs_m(&map, &robot), [3.0]);
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn runs_m(&self, map: &Map, robot: &Robot) -> Vec<f64> {
+        let mut before = self.start;
+        let runs = self.waypoints.iter().map(|waypoint| {
+            let from = map.centre_m(std::mem::replace(&mut before, waypoint.cell));
+            if map.elevation().is_none() {
+                return waypoint.revolutions * robot.wheel_perimeter_m;
+            }
+            let to = map.centre_m(waypoint.cell);
+            (to[0] - from[0]).hypot(to[1] - from[1]).copysign(waypoint.revolutions)
+        });
+        runs.collect()
+    }
+
     /// All revolutions of all runs, forwards and backwards; turns in place are not counted.
     pub fn revolutions(&self) -> f64 {
         self.waypoints.iter().map(|waypoint| waypoint.revolutions.abs()).sum()
@@ -54,6 +82,9 @@ impl Program {
 
 impl Route {
     /// The program that drives `robot` along this route over the floor of `map`.
+    ///
+    /// If the map has an elevation, a run is as long as its ground ([`crate::Ground`]): 10 m of map on a ramp of 10°
+    /// are 10.154 m.
     ///
     /// `heading` is where the robot faces at first; `None`: along its first run. If a turn is needed before the
     /// first run, the first waypoint is the start itself, with 0 revolutions. A run straight back is driven in
@@ -80,8 +111,13 @@ impl Route {
             }
         }
         let heading = heading.or(runs.first().map(|run| run.0));
-        let mut waypoints =
-            vec![Waypoint { cell: start, revolutions: 0.0, turn_deg: 0, turn_revolutions: 0.0 }];
+        let mut waypoints = vec![Waypoint {
+            cell: start,
+            revolutions: 0.0,
+            climb_m: 0.0,
+            turn_deg: 0,
+            turn_revolutions: 0.0,
+        }];
         let mut step = 0;
         let mut facing = heading.unwrap_or(Dir(0));
         for (dir, steps) in runs {
@@ -93,12 +129,14 @@ impl Route {
                 waypoints[here].turn_revolutions = robot.turn_revolutions(turn_deg);
                 facing = dir;
             }
+            let cells = &self.cells()[step..=step + steps];
             step += steps;
-            let run = robot.revolutions(steps as f64 * map.frame().cell_m);
+            let run = robot.revolutions(map.ground_m(cells));
             let revolutions = if back { -run } else { run };
             waypoints.push(Waypoint {
                 cell: self.cells()[step],
                 revolutions,
+                climb_m: map.climb_m(cells),
                 turn_deg: 0,
                 turn_revolutions: 0.0,
             });

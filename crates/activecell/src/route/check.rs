@@ -20,6 +20,8 @@ pub enum RouteFault {
     Jump(usize, Cell, Cell),
     /// This step leads against a one-way cell.
     WrongWay(usize, Cell, Cell),
+    /// This step is closed: on uneven ground, too steep.
+    Closed(usize, Cell, Cell),
 }
 
 impl fmt::Display for RouteFault {
@@ -34,6 +36,9 @@ impl fmt::Display for RouteFault {
             Self::Jump(step, from, to) => write!(f, "step {step} jumps from {from} to {to}"),
             Self::WrongWay(step, from, to) => {
                 write!(f, "step {step} leads from {from} to {to}, against a one-way cell")
+            }
+            Self::Closed(step, from, to) => {
+                write!(f, "step {step} leads from {from} to {to}, which is closed or too steep")
             }
         }
     }
@@ -70,7 +75,7 @@ pub fn check_route(map: &Map, cells: &[Cell], from: Cell, to: Cell) -> Result<()
 }
 
 /// Checks a route over terrain as [`check_route`] does, and that no step leaves a one-way cell in another direction
-/// than its own or enters one head-on; says what the route costs.
+/// than its own or enters one head-on, and that none is closed; says what the route costs.
 ///
 /// # Errors
 /// The first [`RouteFault`]; a cell to keep out of is [`RouteFault::Blocked`].
@@ -103,7 +108,8 @@ pub fn check_terrain_route(
         if head_on || !terrain.may_leave(pair[0], dir) {
             return Err(fault);
         }
-        cost += u64::from(terrain.cost(pair[1]));
+        let own = terrain.own_cost(pair[0], dir).ok_or(RouteFault::Closed(step + 1, pair[0], pair[1]))?;
+        cost += (u64::from(own) * u64::from(terrain.cost(pair[1]))).min(u16::MAX.into());
     }
     Ok(cost)
 }

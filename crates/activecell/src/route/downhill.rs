@@ -5,8 +5,6 @@ use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::row_index;
 use crate::wave::{Field, LiveField, WeightedField};
 
-/// One more than the most that a step can cost.
-const RING: usize = 256;
 const NO_WAY: u32 = u32::MAX;
 
 /// What a route needs to know of a field.
@@ -18,6 +16,10 @@ trait Downhill {
     fn level(&self, cell: Cell) -> Option<u32>;
     /// The steps that lead nearer on a cheapest way.
     fn nearer(&self, cell: Cell) -> impl Iterator<Item = Dir>;
+    /// The most that a step can cost.
+    fn dearest_step(&self) -> u32 {
+        1
+    }
 }
 
 impl Downhill for Field {
@@ -56,6 +58,9 @@ impl Downhill for WeightedField {
     }
     fn size(&self) -> (u32, u32) {
         (self.terrain().map().width(), self.terrain().map().height())
+    }
+    fn dearest_step(&self) -> u32 {
+        self.terrain().dearest_step()
     }
     fn level(&self, cell: Cell) -> Option<u32> {
         self.cost(cell)
@@ -156,19 +161,20 @@ fn fewest_turns(field: &impl Downhill, from: Cell, facing: &[Dir]) -> Vec<Cell> 
     // Of each cell of the map: its number among those on cheapest ways, counted from 1.
     let mut numbers = vec![0u32; width as usize * height as usize];
     let mut passed: Vec<Passed> = Vec::new();
-    let mut ring: Vec<Vec<Entry>> = (0..RING).map(|_| Vec::new()).collect();
+    let buckets = field.dearest_step() as usize + 1;
+    let mut ring: Vec<Vec<Entry>> = (0..buckets).map(|_| Vec::new()).collect();
     let mut start = Entry { cell: from, turns: [NO_WAY; 6] };
     for dir in facing {
         start.turns[dir.index()] = 0;
     }
     let mut level = field.level(from).unwrap_or_default() as usize;
-    ring[level % RING].push(start);
+    ring[level % buckets].push(start);
     // Every step costs something, so that a target, at level 0, comes last.
     while level > 0 {
-        for entry in std::mem::take(&mut ring[level % RING]) {
+        for entry in std::mem::take(&mut ring[level % buckets]) {
             for dir in field.nearer(entry.cell) {
                 let cell = field.lattice().neighbour(entry.cell, dir);
-                let bucket = &mut ring[field.level(cell).unwrap_or_default() as usize % RING];
+                let bucket = &mut ring[field.level(cell).unwrap_or_default() as usize % buckets];
                 let number = &mut numbers[index(cell)];
                 if *number == 0 {
                     passed.push(Passed { before: 0, place: bucket.len() as u32 });

@@ -4,18 +4,21 @@
 //! buckets, one a time step (Dial, *Algorithm 360: shortest-path forest with topological ordering*, 1969). The wave
 //! runs from the target against the steps, and a cell delays all that comes through it alike; so the first time step
 //! at which it reaches a cell is final, and every cell enters a bucket once.
+//!
+//! Where steps have costs of their own, a cell may be reached sooner by a wave that set out later. It then enters a
+//! bucket again, and the late bucket finds it done.
 
 use super::padded::{NEVER, OBSTACLE};
-use super::terrain::Terrain;
+use super::terrain::{Terrain, product};
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 
-/// One more than the largest cost.
+/// One more than the largest cost of a cell.
 const RING: usize = 256;
 
 /// For every cell, the cost of the cheapest way from it to the target.
 ///
-/// Where all costs are 1 and no cell is one-way it equals the [`crate::Field`] of the terrain's map.
+/// Where all costs are 1, no cell is one-way and no step closed it equals the [`crate::Field`] of the terrain's map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WeightedField {
     terrain: Terrain,
@@ -44,11 +47,13 @@ impl Terrain {
         let map = self.map();
         map.check_target(target)?;
         let mut field = WeightedField { terrain: self.clone(), target, values: self.padded().blank(map) };
-        match (map.lattice(), self.exits().is_empty()) {
-            (Lattice::Square, true) => field.spread::<4, false>(),
-            (Lattice::Square, false) => field.spread::<4, true>(),
-            (Lattice::Hex, true) => field.spread::<6, false>(),
-            (Lattice::Hex, false) => field.spread::<6, true>(),
+        match (map.lattice(), self.exits().is_empty(), self.steps().is_empty()) {
+            (Lattice::Square, true, true) => field.spread::<4, false>(),
+            (Lattice::Square, false, true) => field.spread::<4, true>(),
+            (Lattice::Square, _, false) => field.spread_by_steps::<4>(),
+            (Lattice::Hex, true, true) => field.spread::<6, false>(),
+            (Lattice::Hex, false, true) => field.spread::<6, true>(),
+            (Lattice::Hex, _, false) => field.spread_by_steps::<6>(),
         }?;
         Ok(field)
     }
@@ -79,8 +84,9 @@ impl WeightedField {
         let here = self.cost(cell);
         lattice.dirs().filter(move |&dir| {
             let next = lattice.neighbour(cell, dir);
-            let through = self.cost(next).map(|cost| cost + u32::from(self.terrain.cost(next)));
-            here.is_some() && through == here && self.terrain.may_step(cell, dir)
+            let through =
+                self.cost(next).zip(self.terrain.step_cost(cell, dir)).map(|(rest, step)| rest + step);
+            here.is_some() && through == here
         })
     }
 
@@ -96,10 +102,7 @@ impl WeightedField {
         let (mut now, mut waiting) = (1u32, 1);
         while waiting > 0 {
             now += 1;
-            if now > NEVER - RING as u32 {
-                let allowed = "at most about 4294967000; use smaller costs";
-                return Err(Error::BadValue { name: "the cost of a route", value: now.into(), allowed });
-            }
+            check_time(now, RING)?;
             let mut bucket = std::mem::take(&mut ring[now as usize % RING]);
             waiting -= bucket.len();
             for &place in &bucket {
@@ -119,6 +122,53 @@ impl WeightedField {
         debug_assert!(values.iter().all(|&value| value == OBSTACLE || value > 0));
         Ok(())
     }
+
+    /// As [`Self::spread`], where steps have costs of their own.
+    fn spread_by_steps<const N: usize>(&mut self) -> Result<(), Error> {
+        let (padded, costs) = (self.terrain.padded(), self.terrain.costs());
+        let (exits, steps) = (self.terrain.exits(), self.terrain.steps());
+        let values = &mut self.values;
+        let buckets = self.terrain.dearest_step() as usize + 1;
+        let mut ring: Vec<Vec<u32>> = vec![Vec::new(); buckets];
+        let origin = padded.place(self.target).expect("the target was checked");
+        values[origin] = 1;
+        ring[1 % buckets].push(origin as u32);
+        let (mut now, mut waiting) = (1u32, 1);
+        while waiting > 0 {
+            check_time(now, buckets)?;
+            let mut bucket = std::mem::take(&mut ring[now as usize % buckets]);
+            waiting -= bucket.len();
+            for place in bucket.drain(..).map(|place| place as usize) {
+                if values[place] != now {
+                    continue; // It was reached sooner.
+                }
+                for (side, near) in padded.around::<N>(place).into_iter().enumerate() {
+                    let own = steps[near * N + (side + N / 2) % N];
+                    let time = now + product(own, costs[place]);
+                    if own != 0
+                        && values[near] > time
+                        && (exits.is_empty() || passes::<N>(exits, near, place, side))
+                    {
+                        values[near] = time;
+                        ring[time as usize % buckets].push(near as u32);
+                        waiting += 1;
+                    }
+                }
+            }
+            ring[now as usize % buckets] = bucket;
+            now += 1;
+        }
+        Ok(())
+    }
+}
+
+/// Refuses waves that last longer than can be counted.
+fn check_time(now: u32, buckets: usize) -> Result<(), Error> {
+    if now > NEVER - buckets as u32 {
+        let allowed = "at most about 4294900000; use smaller costs";
+        return Err(Error::BadValue { name: "the cost of a route", value: now.into(), allowed });
+    }
+    Ok(())
 }
 
 /// Whether one-way rules let a robot step from `near`, the neighbour of `place` in direction `side`, into `place`.

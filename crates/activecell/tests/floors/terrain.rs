@@ -4,11 +4,12 @@ use crate::twins::{any_cell, cells, floor, free_cell};
 use activecell::{Cell, Dir, Error, Frame, Lattice, Map, Outcome, Rng, Terrain, check_terrain_route};
 use std::collections::{BTreeMap, VecDeque};
 
-/// Random costs, lanes and closed areas on a floor.
+/// Random costs, lanes, closed areas, and steps with costs of their own on a floor.
 fn terrain(map: &Map, rng: &mut Rng) -> Terrain {
     let mut terrain = Terrain::new(map);
     let most = [1, 3, 20, 255][rng.below(4) as usize];
     let (lanes, closed) = ([0.0, 0.1, 0.6][rng.below(3) as usize], [0.0, 0.1][rng.below(2) as usize]);
+    let own = [0, 0, 1, 90, 3000][rng.below(5) as usize];
     for cell in cells(map) {
         terrain.set_cost([cell], 1 + rng.below(most) as u8).unwrap();
         if rng.chance(lanes) {
@@ -19,12 +20,17 @@ fn terrain(map: &Map, rng: &mut Rng) -> Terrain {
         if rng.chance(closed) {
             terrain.keep_out([cell]).unwrap();
         }
+        for dir in map.lattice().dirs().filter(|_| own > 0) {
+            let cost = (!rng.chance(0.1)).then(|| 1 + rng.below(own) as u16);
+            terrain.set_step(cell, dir, cost).unwrap();
+        }
     }
     terrain
 }
 
-/// The steps that a robot may make, told anew from the rules: free cells, left as they may be, never head-on.
-fn steps(terrain: &Terrain, cell: Cell) -> Vec<(Dir, Cell)> {
+/// The steps that a robot may make and what they cost, told anew from the rules: free cells, left as they may be,
+/// never head-on, never closed.
+fn steps(terrain: &Terrain, cell: Cell) -> Vec<(Dir, Cell, u32)> {
     let lattice = terrain.map().lattice();
     let may_make = |&(dir, next): &(Dir, Cell)| {
         let exits: Vec<Dir> = lattice.dirs().filter(|&dir| terrain.may_leave(next, dir)).collect();
@@ -32,7 +38,11 @@ fn steps(terrain: &Terrain, cell: Cell) -> Vec<(Dir, Cell)> {
         terrain.map().is_free(next) && terrain.may_leave(cell, dir) && !head_on
     };
     let all = lattice.dirs().map(|dir| (dir, lattice.neighbour(cell, dir)));
-    if terrain.map().is_free(cell) { all.filter(may_make).collect() } else { Vec::new() }
+    let priced = |(dir, next): (Dir, Cell)| {
+        let cost = u64::from(terrain.own_cost(cell, dir)?) * u64::from(terrain.cost(next));
+        Some((dir, next, cost.min(65535) as u32))
+    };
+    if terrain.map().is_free(cell) { all.filter(may_make).filter_map(priced).collect() } else { Vec::new() }
 }
 
 /// Costs to the target, relaxed cell by cell until nothing changes (Bellman and Ford).
@@ -44,7 +54,7 @@ fn costs(terrain: &Terrain, target: Cell) -> BTreeMap<Cell, u32> {
         for cell in cells(terrain.map()) {
             let ways = steps(terrain, cell)
                 .into_iter()
-                .filter_map(|(_, next)| best.get(&next).map(|cost| cost + u32::from(terrain.cost(next))));
+                .filter_map(|(_, next, step)| best.get(&next).map(|cost| cost + step));
             if let Some(cost) = ways.min().filter(|cost| best.get(&cell).is_none_or(|old| cost < old)) {
                 best.insert(cell, cost);
                 changed = true;
@@ -62,8 +72,8 @@ fn least_cost_and_turns(terrain: &Terrain, from: Cell, to: Cell) -> Option<(u32,
     let mut queue: VecDeque<(Cell, Dir)> = best.keys().copied().collect();
     while let Some((cell, facing)) = queue.pop_front() {
         let (cost, turns) = best[&(cell, facing)];
-        for (dir, next) in steps(terrain, cell) {
-            let cost = (cost + u32::from(terrain.cost(next)), turns + u32::from(dir != facing));
+        for (dir, next, step) in steps(terrain, cell) {
+            let cost = (cost + step, turns + u32::from(dir != facing));
             if best.get(&(next, dir)).is_none_or(|&old| cost < old) {
                 best.insert((next, dir), cost);
                 queue.push_back((next, dir));
@@ -89,18 +99,17 @@ fn the_cheapest_ways_are_found() {
             reached += usize::from(cost.is_some());
             let nearer: Vec<Dir> = steps(&terrain, cell)
                 .into_iter()
-                .filter(|(_, next)| {
-                    let through = expected.get(next).map(|cost| cost + u32::from(terrain.cost(*next)));
+                .filter(|(_, next, step)| {
+                    let through = expected.get(next).map(|cost| cost + step);
                     cost.is_some() && through == cost
                 })
-                .map(|(dir, _)| dir)
+                .map(|(dir, ..)| dir)
                 .collect();
             assert_eq!(field.nearer(cell).collect::<Vec<_>>(), nearer);
             for dir in terrain.map().lattice().dirs() {
-                assert_eq!(
-                    terrain.may_step(cell, dir),
-                    steps(&terrain, cell).iter().any(|step| step.0 == dir)
-                );
+                let step = steps(&terrain, cell).into_iter().find(|step| step.0 == dir);
+                assert_eq!(terrain.may_step(cell, dir), step.is_some());
+                assert_eq!(terrain.step_cost(cell, dir), step.map(|step| step.2));
             }
         }
         let Some(from) = free_cell(terrain.map(), &mut rng) else { continue };
@@ -150,6 +159,9 @@ fn terrain_refuses_what_makes_no_sense() {
     assert_eq!(terrain.keep_out([Cell::new(0, 0), outside]), Err(error.clone()));
     assert!(matches!(terrain.set_cost([Cell::new(0, 0)], 0), Err(Error::BadValue { .. })));
     assert!(matches!(terrain.set_one_way([Cell::new(0, 0)], &[Dir(4)]), Err(Error::BadValue { .. })));
+    assert_eq!(terrain.set_step(outside, Dir::E, None), Err(error.clone()));
+    assert!(matches!(terrain.set_step(Cell::new(0, 0), Dir(4), None), Err(Error::BadValue { .. })));
+    assert!(matches!(terrain.set_step(Cell::new(0, 0), Dir::E, Some(0)), Err(Error::BadValue { .. })));
     assert_eq!((terrain.wave(outside).unwrap_err(), terrain.map()), (error, plain.map()));
     terrain.keep_out([Cell::new(1, 0)]).unwrap();
     assert!(matches!(terrain.wave(Cell::new(1, 0)), Err(Error::TargetOccupied { .. })));
