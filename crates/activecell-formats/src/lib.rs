@@ -7,6 +7,7 @@
 //! | [`raster`] | images: PNG, PGM, PPM |
 //! | [`robot`] | robots: TOML |
 //! | [`run`] | routes and runs: JSON |
+//! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
 //! Everything but [`files`] works on bytes in memory. Input is never trusted: sizes that a header declares are
@@ -31,5 +32,6 @@ pub mod raster;
 pub mod robot;
 pub mod ros;
 pub mod run;
+pub mod trace;
 
 pub use error::{Error, Place};

@@ -1,9 +1,14 @@
 //! Runs: a map, a robot, a task and its route in one JSON file, and the route's report that commands print.
 
+mod read;
+
+pub use read::{MAX_RUN_BYTES, Run, read};
+
 use crate::error::Error;
 use crate::robot::to_json;
 use activecell::{Cell, Dir, Effort, Map, Outcome, Program, Robot, Route, Rule};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The version of the run files that are written.
 pub const VERSION: u32 = 1;
@@ -127,23 +132,38 @@ impl RouteReport {
 }
 
 #[derive(Serialize)]
-struct Run<'a> {
+struct Written<'a> {
     activecell: &'static str,
     version: u32,
-    map: RunMap,
+    map: MapRows,
     robot: serde_json::Value,
     from: [i32; 2],
     to: [i32; 2],
     route: &'a RouteReport,
 }
 
-#[derive(Serialize)]
-struct RunMap {
-    lattice: &'static str,
+/// A map in a JSON file.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct MapRows {
+    lattice: Cow<'static, str>,
     cell_m: f64,
     origin_m: [f64; 2],
     yaw_rad: f64,
     rows: Vec<String>,
+}
+
+impl MapRows {
+    /// The map as text, with its lattice and frame.
+    pub(crate) fn of(map: &Map) -> Self {
+        let frame = map.frame();
+        Self {
+            lattice: map.lattice().name().into(),
+            cell_m: frame.cell_m,
+            origin_m: frame.origin_m,
+            yaw_rad: frame.yaw_rad,
+            rows: map.to_text().lines().map(str::to_owned).collect(),
+        }
+    }
 }
 
 /// A run as JSON: everything that is needed to drive it again.
@@ -151,17 +171,10 @@ struct RunMap {
 /// # Errors
 /// None that a value of these types can cause; the signature is that of the JSON library.
 pub fn write(map: &Map, robot: &Robot, from: Cell, to: Cell, route: &RouteReport) -> Result<String, Error> {
-    let frame = map.frame();
-    let run = Run {
+    let run = Written {
         activecell: "run",
         version: VERSION,
-        map: RunMap {
-            lattice: map.lattice().name(),
-            cell_m: frame.cell_m,
-            origin_m: frame.origin_m,
-            yaw_rad: frame.yaw_rad,
-            rows: map.to_text().lines().map(str::to_owned).collect(),
-        },
+        map: MapRows::of(map),
         robot: to_json(robot),
         from: [from.x, from.y],
         to: [to.x, to.y],

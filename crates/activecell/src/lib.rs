@@ -39,6 +39,8 @@ mod rng;
 mod route;
 pub mod rule;
 mod search;
+pub mod sense;
+pub mod sim;
 mod wave;
 
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};

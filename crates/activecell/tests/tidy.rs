@@ -7,8 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 11] =
-    ["rng", "lattice", "error", "map", "rule", "wave", "search", "route", "embedded", "program", "control"];
+const LAYERS: [&str; 13] = [
+    "rng", "lattice", "error", "map", "rule", "wave", "search", "route", "embedded", "program", "control",
+    "sense", "sim",
+];
 const MAX_LINES: usize = 600;
 
 fn root() -> PathBuf {

@@ -1,10 +1,12 @@
 //! The command line: every option and its help.
 
 mod place;
+mod simulate;
 
 use activecell::{Lattice, Rule};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use place::{Place, heading};
+pub(crate) use simulate::{ModeArg, SimulateArgs};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -34,6 +36,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Route(RouteArgs),
+    Simulate(SimulateArgs),
     Scen(ScenArgs),
     Info(InfoArgs),
     Convert(ConvertArgs),

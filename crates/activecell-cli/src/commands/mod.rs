@@ -7,6 +7,7 @@ mod info;
 mod load;
 mod route;
 mod scen;
+mod simulate;
 mod success;
 mod table;
 
@@ -27,6 +28,7 @@ pub(crate) enum Done {
 pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done> {
     match command {
         Command::Route(args) => return route::run(&args, terminal),
+        Command::Simulate(args) => return simulate::run(&args, terminal),
         Command::Scen(args) => return scen::run(&args, terminal),
         Command::Info(args) => info::run(&args, terminal)?,
         Command::Convert(args) => convert::run(&args, terminal)?,
