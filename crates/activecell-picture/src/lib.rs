@@ -43,11 +43,15 @@ mod raster;
 mod route;
 mod sample;
 mod scene;
+mod simulation;
 mod svg;
 mod terminal;
 
 use activecell::{Cell, Map};
 use figure::Figure;
+pub use simulation::{
+    Moment, MovingPicture, SimulationPicture, simulation_gif, simulation_png, simulation_svg,
+};
 
 /// When the wave from the target reached a cell; `None` where it did not come.
 pub type Wave<'a> = &'a dyn Fn(Cell) -> Option<u32>;

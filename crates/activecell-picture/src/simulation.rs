@@ -8,7 +8,8 @@ use crate::legend::{Key, active_disc};
 use crate::route::{simplified, start_mark, target_mark};
 use crate::scene::{Line, Point, Scene, Shape};
 use crate::{Error, encode_png, raster, svg};
-use activecell::sim::{Region, Tick, Trace};
+use activecell::sense::Change;
+use activecell::sim::Region;
 use activecell::{Cell, Map, PointM, Pose, Sensors};
 use std::f64::consts::TAU;
 
@@ -154,7 +155,8 @@ fn found(layout: &Layout, cells: &[Cell]) -> Vec<Shape> {
 /// Lines from lower left to upper right through a convex shape, so far apart.
 pub(crate) fn hatching(corners: &[Point], step: f64) -> Vec<Vec<Point>> {
     let heights = corners.iter().map(|&[x, y]| x + y);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+    let (low, high) =
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
     let mut runs = Vec::new();
     let mut at = (low / step).floor() * step + step;
     while at < high {
@@ -205,18 +207,30 @@ fn ellipse(layout: &Layout, map: &Map, region: &Region) -> Shape {
 
 /// A cross on white.
 pub(crate) fn contact(shapes: &mut Vec<Shape>, [x, y]: Point, arm: f64) {
-    let runs = vec![vec![[x - arm, y - arm], [x + arm, y + arm]], vec![[x - arm, y + arm], [x + arm, y - arm]]];
+    let runs =
+        vec![vec![[x - arm, y - arm], [x + arm, y + arm]], vec![[x - arm, y + arm], [x + arm, y - arm]]];
     shapes.push(Shape::lines(runs.clone(), Line::new(PAGE, 0.9 * arm)));
     shapes.push(Shape::lines(runs, Line::new(VERMILLION, 0.45 * arm)));
 }
 
-/// A run in the task mode, to be shown moving.
+/// One moment of a drive.
 #[derive(Debug, Clone, Copy)]
-pub struct TracePicture<'a> {
-    /// What stands still, with the way left out: it is drawn as it is driven.
+pub struct Moment<'a> {
+    /// Where the robot is.
+    pub pose: Pose,
+    /// What its beams read; empty if no sensor was asked.
+    pub readings_m: &'a [f64],
+    /// The cells that closed (`true`) and opened for it since the moment before.
+    pub changes: &'a [Change],
+}
+
+/// A drive, to be shown moving.
+#[derive(Debug, Clone, Copy)]
+pub struct MovingPicture<'a> {
+    /// What stands still; its ways are left out, as they are drawn while they are driven.
     pub still: SimulationPicture<'a>,
-    /// The run.
-    pub trace: &'a Trace,
+    /// The drive.
+    pub moments: &'a [Moment<'a>],
     /// The robot's radius in metres.
     pub radius_m: f64,
     /// Its sensors.
@@ -227,12 +241,13 @@ pub struct TracePicture<'a> {
 ///
 /// # Errors
 /// [`Error::Canvas`], [`Error::Encoding`].
-pub fn trace_gif(picture: &TracePicture<'_>) -> Result<Vec<u8>, Error> {
+pub fn simulation_gif(picture: &MovingPicture<'_>) -> Result<Vec<u8>, Error> {
     let still = &picture.still;
     let figure = Figure::new(still.world, None, still.title, MOVING);
     let layout = &figure.layout;
-    let mut keys = vec![Key::Start, Key::Target, Key::Planned, Key::Driven, Key::Beam];
-    keys.extend((!picture.trace.found.is_empty()).then_some(Key::Found));
+    let mut keys = vec![Key::Start, Key::Target, Key::Planned, Key::Driven];
+    keys.extend(picture.moments.iter().any(|moment| !moment.readings_m.is_empty()).then_some(Key::Beam));
+    keys.extend(picture.moments.iter().any(|moment| !moment.changes.is_empty()).then_some(Key::Found));
     keys.extend(figure.keys());
     let mut page = figure.page(&keys, None);
     page.shapes.push(figure.floor());
@@ -241,23 +256,22 @@ pub fn trace_gif(picture: &TracePicture<'_>) -> Result<Vec<u8>, Error> {
     raster::draw_shapes(&mut stage.below, &planned(layout, still.planned));
     raster::draw_shapes(&mut stage.above, &marks(layout, still));
 
-    let ticks = &picture.trace.ticks;
-    let stride = ticks.len().div_ceil(FRAMES).max(1);
+    let stride = picture.moments.len().div_ceil(FRAMES).max(1);
     let mut film: Option<Film> = None;
     let mut closed: Vec<Cell> = Vec::new();
     let mut way: Vec<Pose> = Vec::new();
-    for (number, tick) in ticks.iter().enumerate() {
-        follow(&mut closed, tick, still.world, picture);
-        way.push(tick.truth);
-        let last = number + 1 == ticks.len();
+    for (number, moment) in picture.moments.iter().enumerate() {
+        follow(&mut closed, moment);
+        way.push(moment.pose);
+        let last = number + 1 == picture.moments.len();
         if number % stride != 0 && !last {
             continue;
         }
         let mut shapes = found(layout, &closed);
         shapes.extend(track(layout, still.world, &way, VERMILLION));
-        shapes.extend(beams(layout, still.world, tick, picture.sensors));
+        shapes.push(beams(layout, still.world, moment, picture.sensors));
         let radius = (picture.radius_m / still.world.frame().cell_m * layout.cell).max(4.0);
-        shapes.push(active_disc(layout.floor_point(still.world, tick.truth.at_m), radius));
+        shapes.push(active_disc(layout.floor_point(still.world, moment.pose.at_m), radius));
         let frame = stage.frame(&shapes);
         let delay = if last { HOLD_CS } else { FRAME_CS };
         match &mut film {
@@ -265,25 +279,24 @@ pub fn trace_gif(picture: &TracePicture<'_>) -> Result<Vec<u8>, Error> {
             None => film = Some(Film::new(&frame, delay)?),
         }
     }
-    film.ok_or_else(|| Error::Encoding("the trace has no step".into()))?.finish()
+    film.ok_or_else(|| Error::Encoding("the drive has no moment".into()))?.finish()
 }
 
-/// Follows the cells that closed though the robot's map called them free.
-fn follow(closed: &mut Vec<Cell>, tick: &Tick, world: &Map, picture: &TracePicture<'_>) {
-    for &(cell, blocked) in &tick.changes {
+/// Follows the cells that closed and opened.
+fn follow(closed: &mut Vec<Cell>, moment: &Moment<'_>) {
+    for &(cell, blocked) in moment.changes {
         closed.retain(|&other| other != cell);
-        let new = world.is_free(cell) || picture.still.found.contains(&cell);
-        if blocked && new {
+        if blocked {
             closed.push(cell);
         }
     }
 }
 
-fn beams(layout: &Layout, map: &Map, tick: &Tick, sensors: &Sensors) -> Shape {
-    let from = layout.floor_point(map, tick.truth.at_m);
-    let beams = sensors.bearings_rad(tick.truth.bearing_rad).zip(&tick.readings_m);
+fn beams(layout: &Layout, map: &Map, moment: &Moment<'_>, sensors: &Sensors) -> Shape {
+    let from = layout.floor_point(map, moment.pose.at_m);
+    let beams = sensors.bearings_rad(moment.pose.bearing_rad).zip(moment.readings_m);
     let runs = beams.map(|(bearing_rad, &reading_m)| {
-        let pose = Pose { bearing_rad, ..tick.truth };
+        let pose = Pose { bearing_rad, ..moment.pose };
         vec![from, layout.floor_point(map, pose.point(reading_m, 0.0))]
     });
     Shape::lines(runs.collect(), Line::new(GREEN, 1.2))

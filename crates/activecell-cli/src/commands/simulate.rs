@@ -1,6 +1,7 @@
 //! `activecell simulate`: a saved run, driven in a world with errors.
 
 mod offline;
+mod picture;
 mod stage;
 mod task;
 
@@ -9,6 +10,7 @@ use crate::args::{ModeArg, SimulateArgs};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> anyhow::Result<Done> {
+    picture::check(args)?;
     let stage = stage::set(args, terminal)?;
     match args.mode {
         ModeArg::Offline => offline::run(args, &stage, terminal),

@@ -167,16 +167,15 @@ impl Estimate {
 
     /// F P Fᵀ for a position that moves by `lever` for each radian of heading.
     fn shear(&mut self, lever: PointM) {
-        let p = &mut self.covariance;
-        for axis in 0..2 {
-            for column in 0..3 {
-                p[axis][column] += lever[axis] * p[2][column];
+        let [x, y, facing] = &mut self.covariance;
+        for (row, lever) in [x, y].into_iter().zip(lever) {
+            for (value, turned) in row.iter_mut().zip(*facing) {
+                *value += lever * turned;
             }
         }
-        for row in p.iter_mut() {
-            for axis in 0..2 {
-                row[axis] += lever[axis] * row[2];
-            }
+        for row in &mut self.covariance {
+            row[0] += lever[0] * row[2];
+            row[1] += lever[1] * row[2];
         }
     }
 

@@ -11,7 +11,7 @@ use crate::wave::LiveField;
 #[derive(Debug, Clone)]
 pub(super) enum Guide {
     /// The field is repaired where the map changed.
-    Wave(LiveField),
+    Wave(Box<LiveField>),
     /// `opened`: levels may be too high, so that they are no proof that there is no way.
     Learning { map: Map, levels: Levels, target: Cell, opened: bool },
 }
@@ -20,7 +20,7 @@ impl Guide {
     pub(super) fn new(map: &Map, rule: Rule, target: Cell) -> Result<Self, Error> {
         map.check_target(target)?;
         match rule {
-            Rule::Wave => Ok(Self::Wave(LiveField::new(map, target)?)),
+            Rule::Wave => Ok(Self::Wave(LiveField::new(map, target)?.into())),
             Rule::Learning => Ok(Self::Learning {
                 map: map.clone(),
                 levels: Levels::new(map, target),

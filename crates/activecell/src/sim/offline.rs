@@ -181,13 +181,11 @@ impl Spread {
     pub fn add(&mut self, point_m: PointM) {
         self.count += 1.0;
         let before = [point_m[0] - self.mean_m[0], point_m[1] - self.mean_m[1]];
-        for axis in 0..2 {
-            self.mean_m[axis] += before[axis] / self.count;
-        }
+        self.mean_m = [0, 1].map(|axis| self.mean_m[axis] + before[axis] / self.count);
+        let after = [point_m[0] - self.mean_m[0], point_m[1] - self.mean_m[1]];
         for (row, before) in self.sums_m2.iter_mut().zip(before) {
-            for axis in 0..2 {
-                row[axis] += before * (point_m[axis] - self.mean_m[axis]);
-            }
+            row[0] += before * after[0];
+            row[1] += before * after[1];
         }
     }
 

@@ -205,7 +205,7 @@ mod tests {
             let sampled = sampled_gap_m(&map, from_m, to_m);
             match world.gap_m(from_m, to_m, 0.6) {
                 Some(gap) => {
-                    assert!(gap <= sampled + 1e-9 && gap > sampled - 0.02, "{seed}: {gap} {sampled}")
+                    assert!(gap <= sampled + 1e-9 && gap > sampled - 0.02, "{seed}: {gap} {sampled}");
                 }
                 None => assert!(sampled > 0.6, "{seed}: {sampled}"),
             }

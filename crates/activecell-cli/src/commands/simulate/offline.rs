@@ -2,13 +2,14 @@
 
 use super::super::Done;
 use super::stage::Stage;
-use super::{counted, percent};
+use super::{counted, percent, picture};
 use crate::args::SimulateArgs;
 use crate::terminal::Terminal;
 use activecell::sim::{Offline, Region, Trial, trial_rng, trials};
 use activecell::{PointM, Pose};
 use activecell_formats::files;
 use activecell_formats::trace::{Distribution, OfflineReport};
+use activecell_picture::{Moment, SimulationPicture};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// If the user does not say how many.
@@ -61,7 +62,26 @@ pub(crate) fn run(args: &SimulateArgs, stage: &Stage, terminal: &Terminal) -> an
         touched: share(ends.iter().filter(|end| !end.contacts.is_empty()).count()),
         contacts: ends.iter().map(|end| end.contacts.len() as u64).sum(),
     };
-    save(args, stage, &offline, &report, &ends)?;
+    let centre_m = stage.run.map.centre_m(stage.run.to);
+    let ends_m: Vec<PointM> =
+        ends.iter().map(|end| [centre_m[0] + end.off_m[0], centre_m[1] + end.off_m[1]]).collect();
+    let way = first_way(args, &offline);
+    if let Some(path) = &args.save {
+        files::write_atomically(path, stage.file().offline(&report, &way, &ends_m)?.as_bytes())?;
+    }
+    if !args.picture.is_empty() {
+        let title = title(stage, &report);
+        let moments: Vec<Moment<'_>> =
+            way.iter().map(|&pose| Moment { pose, readings_m: &[], changes: &[] }).collect();
+        let still = SimulationPicture {
+            way: &way,
+            ends_m: &ends_m,
+            region: regions.last().copied(),
+            contacts_m: ends.first().map_or(&[], |end| &end.contacts),
+            ..picture::base(stage, &title)
+        };
+        picture::write(args, stage, &still, &moments, terminal)?;
+    }
     if args.json {
         Terminal::result(&format!("{}\n", serde_json::to_string(&report)?))?;
     } else {
@@ -77,20 +97,10 @@ fn count_inside(regions: &[Region], trial: &Trial, inside: &[AtomicU64]) {
     }
 }
 
-/// The trace file, if one is wanted.
-fn save(
-    args: &SimulateArgs,
-    stage: &Stage,
-    offline: &Offline<'_>,
-    report: &OfflineReport,
-    ends: &[End],
-) -> anyhow::Result<()> {
-    let Some(path) = &args.save else { return Ok(()) };
-    let centre_m = stage.run.map.centre_m(stage.run.to);
-    let ends_m: Vec<PointM> =
-        ends.iter().map(|end| [centre_m[0] + end.off_m[0], centre_m[1] + end.off_m[1]]).collect();
-    let text = stage.file().offline(report, &first_way(args, offline), &ends_m)?;
-    Ok(files::write_atomically(path, text.as_bytes())?)
+fn title(stage: &Stage, report: &OfflineReport) -> String {
+    let (median, p95) = (report.end_error_m.median, report.end_error_m.p95);
+    let drives = counted(report.trials.into(), "drive");
+    format!("{} · offline · {drives}: end error {median:.2} m, 95 % below {p95:.2} m", stage.name)
 }
 
 /// The way of the first trial.

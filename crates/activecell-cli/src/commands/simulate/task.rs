@@ -2,13 +2,14 @@
 
 use super::super::Done;
 use super::stage::Stage;
-use super::{counted, percent};
+use super::{counted, percent, picture};
 use crate::args::SimulateArgs;
 use crate::terminal::Terminal;
-use activecell::Dir;
 use activecell::sim::{Ending, Task, Trace, trial_rng, trials};
+use activecell::{Dir, PointM, Pose};
 use activecell_formats::files;
 use activecell_formats::trace::{Distribution, TaskReport};
+use activecell_picture::{Moment, SimulationPicture};
 
 /// What is kept of a trial.
 struct Kept {
@@ -38,12 +39,48 @@ pub(crate) fn run(args: &SimulateArgs, stage: &Stage, terminal: &Terminal) -> an
     if let Some(path) = &args.save {
         files::write_atomically(path, stage.file().task(&report, &first)?.as_bytes())?;
     }
+    if !args.picture.is_empty() {
+        draw(args, stage, &report, &first, terminal)?;
+    }
     if args.json {
         Terminal::result(&format!("{}\n", serde_json::to_string(&report)?))?;
     } else {
         Terminal::result(&text(&report))?;
     }
     Ok(if report.arrived == report.trials { Done::Reached } else { Done::NotReached })
+}
+
+fn draw(
+    args: &SimulateArgs,
+    stage: &Stage,
+    report: &TaskReport,
+    trace: &Trace,
+    terminal: &Terminal,
+) -> anyhow::Result<()> {
+    let way: Vec<Pose> = trace.ticks.iter().map(|tick| tick.truth).collect();
+    let believed: Vec<Pose> = trace.ticks.iter().map(|tick| tick.estimate).collect();
+    let contacts_m: Vec<PointM> = trace.contacts.iter().map(|contact| contact.at_m).collect();
+    let moments: Vec<Moment<'_>> = trace
+        .ticks
+        .iter()
+        .map(|tick| Moment { pose: tick.truth, readings_m: &tick.readings_m, changes: &tick.changes })
+        .collect();
+    let (ending, found) = (trace.ending.name(), counted(trace.found.len() as u64, "obstacle"));
+    let length_m = trace.length_m;
+    let contacts = counted(trace.contacts.len() as u64, "contact");
+    let rule = stage.run.rule;
+    let title = format!(
+        "{} · task, {rule}: {ending} after {length_m:.1} m, {found} found, {contacts}, seed {}",
+        stage.name, report.seed
+    );
+    let still = SimulationPicture {
+        way: &way,
+        believed: &believed,
+        contacts_m: &contacts_m,
+        found: &trace.found,
+        ..picture::base(stage, &title)
+    };
+    picture::write(args, stage, &still, &moments, terminal)
 }
 
 fn keep(stage: &Stage, trace: &Trace) -> Kept {
