@@ -29,6 +29,7 @@ mod error;
 pub mod files;
 pub mod movingai;
 pub mod raster;
+mod read_run;
 pub mod robot;
 pub mod ros;
 pub mod run;

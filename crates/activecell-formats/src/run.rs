@@ -1,8 +1,6 @@
 //! Runs: a map, a robot, a task and its route in one JSON file, and the route's report that commands print.
 
-mod read;
-
-pub use read::{MAX_RUN_BYTES, Run, read};
+pub use crate::read_run::{MAX_RUN_BYTES, Run, read};
 
 use crate::error::Error;
 use crate::robot::to_json;
@@ -145,11 +143,11 @@ struct Written<'a> {
 /// A map in a JSON file.
 #[derive(Serialize, Deserialize)]
 pub(crate) struct MapRows {
-    lattice: Cow<'static, str>,
-    cell_m: f64,
-    origin_m: [f64; 2],
-    yaw_rad: f64,
-    rows: Vec<String>,
+    pub(crate) lattice: Cow<'static, str>,
+    pub(crate) cell_m: f64,
+    pub(crate) origin_m: [f64; 2],
+    pub(crate) yaw_rad: f64,
+    pub(crate) rows: Vec<String>,
 }
 
 impl MapRows {

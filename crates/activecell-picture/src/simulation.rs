@@ -19,6 +19,8 @@ const MOST_ENDS: usize = 3000;
 const FRAMES: usize = 160;
 const FRAME_CS: u16 = 8;
 const HOLD_CS: u16 = 250;
+/// Corners of a drawn ellipse.
+const STEPS: i32 = 180;
 
 /// A simulation, to be drawn. What is empty is left out.
 #[derive(Debug, Clone, Copy)]
@@ -79,8 +81,8 @@ fn still(picture: &SimulationPicture<'_>) -> Scene {
     shapes.extend(figure.fixed());
     shapes.extend(found(&figure.layout, picture.found));
     shapes.extend(planned(&figure.layout, picture.planned));
-    shapes.extend(marks(&figure.layout, picture));
     shapes.extend(ends(&figure.layout, picture));
+    shapes.extend(marks(&figure.layout, picture));
     shapes.extend(track(&figure.layout, picture.world, picture.way, VERMILLION));
     let believed = track(&figure.layout, picture.world, picture.believed, BLUE);
     shapes.extend(believed.into_iter().map(dashed));
@@ -179,13 +181,14 @@ pub(crate) fn hatching(corners: &[Point], step: f64) -> Vec<Vec<Point>> {
 
 fn ends(layout: &Layout, picture: &SimulationPicture<'_>) -> Vec<Shape> {
     let stride = picture.ends_m.len().div_ceil(MOST_ENDS).max(1);
-    let dot = |&at_m: &PointM| Shape::Disc {
-        centre: layout.floor_point(picture.world, at_m),
-        radius: 1.1,
-        fill: PURPLE,
-        line: None,
-    };
-    picture.ends_m.iter().step_by(stride).map(dot).collect()
+    let points = picture.ends_m.iter().step_by(stride).map(|&at_m| layout.floor_point(picture.world, at_m));
+    let dot = |centre: Point| Shape::Disc { centre, radius: 1.1, fill: PURPLE, line: None };
+    points.filter(|&point| is_on_map(layout, point)).map(dot).collect()
+}
+
+/// Whether a point lies in the map's box, outside which titles and legends are.
+fn is_on_map(layout: &Layout, point: Point) -> bool {
+    (0..2).all(|axis| (0.0..=layout.map_size[axis]).contains(&(point[axis] - layout.origin[axis])))
 }
 
 /// The edge of a region, by the square root of its covariance.
@@ -197,12 +200,14 @@ fn ellipse(layout: &Layout, map: &Map, region: &Region) -> Shape {
     let c = (yy - b * b).max(0.0).sqrt();
     let radius = region.squared_radius.max(0.0).sqrt();
     let point = |step: i32| {
-        let (sin, cos) = (TAU * f64::from(step) / 72.0).sin_cos();
+        let (sin, cos) = (TAU * f64::from(step) / f64::from(STEPS)).sin_cos();
         let (x, y) = (radius * a * cos, radius * (b * cos + c * sin));
         layout.floor_point(map, [region.mean_m[0] + x, region.mean_m[1] + y])
     };
-    let line = Some(Line::new(GREEN, 2.0));
-    Shape::Path { runs: vec![(0..72).map(point).collect()], closed: true, fill: None, line }
+    let ring: Vec<Point> = (0..=STEPS).map(point).collect();
+    // The pieces on the map.
+    let pieces = ring.split(|&point| !is_on_map(layout, point)).filter(|piece| piece.len() > 1);
+    Shape::lines(pieces.map(<[Point]>::to_vec).collect(), Line::new(GREEN, 2.0))
 }
 
 /// A cross on white.

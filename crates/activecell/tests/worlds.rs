@@ -3,8 +3,8 @@
 #![expect(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
 use activecell::control::Inputs;
-use activecell::sim::{Ending, Task, Trace, Visit, World, trial_rng};
-use activecell::{BitPlane, Cell, Dir, Drive, Frame, Lattice, Map, Rng, Robot, Rule};
+use activecell::sim::{Ending, Leg, Mover, Task, Trace, Visit, World, trial_rng};
+use activecell::{BitPlane, Cell, Dir, Drive, Frame, Lattice, Map, Pose, Rng, Robot, Rule};
 use std::collections::BTreeSet;
 
 const CELL_M: f64 = 0.5;
@@ -117,16 +117,6 @@ fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
             worst_m = worst_m.max((true_m[0] - thought_m[0]).hypot(true_m[1] - thought_m[1]));
             spread_m = spread_m.max(tick.spread_m);
         }
-        if trace.ticks.len() > 3000 {
-            println!(
-                "{name} {} {} {:?} {:?} {}",
-                trace.ticks.len(),
-                end.time_s,
-                trace.ending,
-                case.rule,
-                case.world.lattice()
-            );
-        }
         found += trace.found.len();
         ticks += trace.ticks.len();
         driven_m += trace.length_m;
@@ -139,41 +129,84 @@ fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
     assert!(arrived > count / 2 && unreachable > 0);
 }
 
+/// A corridor with one door, and a way round that is longer.
 #[test]
-#[ignore = "for looking at one world"]
-fn one_world() {
-    let number = std::env::var("WORLD").unwrap().parse().unwrap();
-    let case = case(number);
-    let trace = drive(&case, &[], number);
-    println!(
-        "{:?} {} {:?} {:?} r={}\n{}",
-        case.rule,
-        case.world.lattice(),
-        case.from,
-        case.to,
-        case.robot.can_reverse,
-        case.world.to_text()
-    );
-    println!("{}", case.known.to_text());
-    let skip: usize = std::env::var("SKIP").map_or(0, |s| s.parse().unwrap());
-    for tick in trace.ticks.iter().skip(skip).take(std::env::var("TAKE").map_or(120, |t| t.parse().unwrap()))
-    {
-        let r: Vec<String> = tick.readings_m.iter().map(|r| format!("{r:.2}")).collect();
-        println!(
-            "{:.2} {} -> {} {:?} {:08b} est {:.2?} {:.2} err {:.3} {:?} {}",
-            tick.time_s,
-            tick.cell,
-            tick.aim,
-            tick.state,
-            tick.inputs.0,
-            tick.estimate.at_m,
-            tick.estimate.bearing_rad,
-            (tick.truth.at_m[0] - tick.estimate.at_m[0]).hypot(tick.truth.at_m[1] - tick.estimate.at_m[1]),
-            tick.changes
-                .iter()
-                .map(|c| format!("{}{}", c.0, if c.1 { "#" } else { "." }))
-                .collect::<Vec<_>>(),
-            r.join(" ")
-        );
+fn obstacles_that_appear_and_go_away_do_not_stop_it_for_ever() {
+    let text = ".......\n###.###\n.......";
+    let (mut waited, mut shut) = (0, 0);
+    for number in 0..60 {
+        let lattice = Lattice::ALL[number as usize % 2];
+        let drive_by = [Drive::Differential, Drive::Steered][number as usize / 2 % 2];
+        let map = in_cells(Map::parse(lattice, text).unwrap());
+        let door = Cell::new(3, 1);
+        let case = Case {
+            world: map.clone(),
+            known: map,
+            from: Cell::new(0, 0),
+            to: Cell::new(6, 2),
+            robot: Robot { drive: drive_by, ..Robot::default() },
+            rule: if number % 5 == 0 { Rule::Learning } else { Rule::Wave },
+            reachable: true,
+        };
+        // It stands in the only door for a while, and comes back later.
+        let for_a_while =
+            [(2.0, 25.0), (60.0, 80.0)].map(|(from_s, to_s)| Visit { cell: door, from_s, to_s });
+        let trace = drive(&case, &for_a_while, number);
+        check_safety(&case, &trace, &format!("door {number}"));
+        assert_eq!(trace.ending, Ending::Arrived, "{number}");
+        assert!(trace.contacts.is_empty(), "{number}: {:?}", trace.contacts);
+        waited += u64::from(trace.ticks.iter().any(|tick| tick.changes.contains(&(door, true))));
+        // One that stays longer than it has patience: it says so, but not before it looked again.
+        let trace = drive(&case, &[Visit { cell: door, from_s: 0.0, to_s: 1e9 }], number);
+        assert_eq!(trace.ending, Ending::Unreachable, "{number}");
+        assert!(trace.ticks.last().unwrap().time_s > 30.0, "{number}");
+        shut += 1;
     }
+    println!("{waited} of 60 found the door shut and waited, {shut} found it shut for ever");
+    assert!(waited > 30);
+}
+
+#[test]
+fn discs_that_move_are_seen_and_their_touch_is_counted() {
+    let map = in_cells(Map::parse(Lattice::Square, &[".".repeat(16).as_str(); 9].join("\n")).unwrap());
+    let (from, to) = (Cell::new(1, 4), Cell::new(14, 4));
+    let robot = Robot::default();
+    let task = Task::new(&map, from, to);
+    let start =
+        |cell: Cell, bearing_rad: f64| Pose { at_m: map.centre_m(cell), bearing_rad: bearing_rad + 0.3 };
+    let mover = |start: Pose, speed_mps: f64| {
+        let legs = vec![Leg { duration_s: 1000.0, speed_mps, turn_rate_radps: 0.0 }];
+        Mover { radius_m: 0.2, start, legs }
+    };
+    // It stands in the way: the robot goes round it.
+    let standing = World::new(&map).with_movers(vec![mover(start(Cell::new(7, 4), 0.0), 0.0)]);
+    let trace = task.run(&standing, &robot, &mut Rng::new(3)).unwrap();
+    assert_eq!((trace.ending, trace.contacts.len()), (Ending::Arrived, 0));
+    assert!(trace.ticks.iter().any(|tick| tick.changes.contains(&(Cell::new(7, 4), true))));
+    // It runs the robot over, which only prediction could avoid.
+    let bull = World::new(&map).with_movers(vec![mover(start(Cell::new(15, 4), std::f64::consts::PI), 1.5)]);
+    let trace = task.run(&bull, &robot, &mut Rng::new(3)).unwrap();
+    assert!(trace.contacts.iter().any(|contact| contact.mover == Some(0)), "{:?}", trace.contacts);
+}
+
+#[test]
+fn cells_too_small_and_sensors_too_weak_are_refused_in_one_line() {
+    let map = Map::parse(Lattice::Hex, "...").unwrap();
+    let small = map.in_frame(Frame { cell_m: 0.4, ..Frame::default() }).unwrap();
+    let task = Task::new(&small, Cell::new(0, 0), Cell::new(2, 0));
+    let run = |robot: Robot| task.run(&World::new(&small), &robot, &mut Rng::new(1)).unwrap_err().to_string();
+    assert_eq!(
+        run(Robot::default()),
+        "cells of 0.4 m are too small for a robot of radius 0.1 m to keep clear of obstacles with its errors and sensors; use cells of at least 0.453 m"
+    );
+    let blind = Robot::default();
+    let blind = Robot { sensors: activecell::Sensors { range_m: 0.3, ..blind.sensors }, ..blind };
+    assert_eq!(
+        run(blind),
+        "sensors.range_m is 0.3; it must be at least a cell's size and the robot's radius"
+    );
+    let task = Task { rule: Rule::Published, ..Task::new(&small, Cell::new(0, 0), Cell::new(2, 0)) };
+    let robot = Robot { radius_m: 0.05, ..Robot::default() };
+    let error = task.run(&World::new(&small), &robot, &mut Rng::new(1)).unwrap_err();
+    assert!(error.to_string().contains("`published` has no memory"));
 }

@@ -1,8 +1,8 @@
 //! Reads run files again. They may come from anywhere: every number is checked against the map.
 
-use super::{MapRows, VERSION};
 use crate::error::{Error, quoted};
 use crate::robot::from_json;
+use crate::run::{MapRows, VERSION};
 use activecell::{Cell, Frame, Lattice, Map, Program, Robot, Rule, Waypoint};
 use serde::Deserialize;
 
