@@ -47,6 +47,8 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) route maps/beyond.txt --from S --to F --rule published --draw never --picture docs/pictures/beyond.svg > /dev/null
 	-$(ACTIVECELL) route maps/trap.txt --from S --to F --rule published --draw never --picture docs/pictures/trap.svg > /dev/null
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
+	$(ACTIVECELL) simulate maps/office-run.json --trials 4000 --picture docs/pictures/simulate-offline.png -q > /dev/null
+	$(ACTIVECELL) simulate maps/office-run.json --mode task --missing 0.1 --seed 3 --picture docs/pictures/simulate-task.png --picture docs/pictures/simulate-task.gif -q > /dev/null
 
 bench:
 	@QUICK=$(QUICK) bench/run.sh

@@ -4,7 +4,7 @@
 
 use activecell::control::Inputs;
 use activecell::sim::{Ending, Leg, Mover, Task, Trace, Visit, World, trial_rng};
-use activecell::{BitPlane, Cell, Dir, Drive, Frame, Lattice, Map, Pose, Rng, Robot, Rule};
+use activecell::{BitPlane, Cell, Dir, Drive, Errors, Frame, Lattice, Map, Pose, Rng, Robot, Rule, Sensors};
 use std::collections::BTreeSet;
 
 const CELL_M: f64 = 0.5;
@@ -51,7 +51,7 @@ fn case(number: u64) -> Case {
         let (from, to) = (pick(), pick());
         if from != to && world.is_free(from) && world.is_free(to) {
             let reachable = world.wave(to).unwrap().steps(from).is_some();
-            let robot = Robot { drive, can_reverse: number % 3 != 0, ..Robot::default() };
+            let robot = Robot { drive, can_reverse: !number.is_multiple_of(3), ..Robot::default() };
             return Case { world, known, from, to, robot, rule, reachable };
         }
     }
@@ -105,7 +105,7 @@ fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
             Ending::Arrived if case.world.cell_at_m(end.truth.at_m) == case.to => arrived += 1,
             Ending::Unreachable if !case.reachable => unreachable += 1,
             ending => {
-                faults.push(format!("{name}: {ending:?} at {} {:?} {}", end.cell, case.to, case.reachable))
+                faults.push(format!("{name}: {ending:?} at {} {:?} {}", end.cell, case.to, case.reachable));
             }
         }
         if !trace.contacts.is_empty() {
@@ -127,6 +127,42 @@ fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
     );
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(arrived > count / 2 && unreachable > 0);
+}
+
+/// Robots that see less, or more, or go wrong more often than the default one.
+#[test]
+fn other_sensors_and_errors_arrive_too() {
+    let default = Robot::default();
+    let (sensors, errors) = (default.sensors, default.errors);
+    let robots = [
+        ("8 beams", Robot { sensors: Sensors { beams: 8, ..sensors }, ..default }),
+        ("7 beams", Robot { sensors: Sensors { beams: 7, ..sensors }, ..default }),
+        ("36 beams", Robot { sensors: Sensors { beams: 36, ..sensors }, ..default }),
+        ("range 4 m", Robot { sensors: Sensors { range_m: 4.0, ..sensors }, ..default }),
+        ("5 % false", Robot { sensors: Sensors { false_rate: 0.05, ..sensors }, ..default }),
+        ("perfect", Robot { sensors: Sensors { noise_m: 0.0, false_rate: 0.0, ..sensors }, errors: Errors::NONE, ..default }),
+        ("wheels off", Robot { errors: Errors { wheel_perimeter_rel: 0.03, track_rel: 0.03, ..errors }, ..default }),
+        ("radius 5 cm", Robot { radius_m: 0.05, ..default }),
+    ];
+    for (name, robot) in robots {
+        let (mut reached, mut contacts) = (0, 0);
+        for number in 0..60 {
+            let case = case(number);
+            let case = Case { robot: Robot { drive: case.robot.drive, can_reverse: case.robot.can_reverse, ..robot }, ..case };
+            let trace = drive(&case, &[], number);
+            check_safety(&case, &trace, name);
+            let end = trace.ticks.last().unwrap();
+            let right = match trace.ending {
+                Ending::Arrived => case.world.cell_at_m(end.truth.at_m) == case.to,
+                Ending::Unreachable => !case.reachable,
+                Ending::GaveUp => false,
+            };
+            if !right { println!("{name} {number} {:?} {}", trace.ending, case.world.lattice()); }
+            reached += u32::from(right);
+            contacts += trace.contacts.len();
+        }
+        println!("{name}: {reached} of 60 worlds rightly ended, {contacts} contacts");
+    }
 }
 
 /// A corridor with one door, and a way round that is longer.

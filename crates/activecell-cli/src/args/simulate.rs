@@ -13,9 +13,10 @@ use std::str::FromStr;
 /// tell, and the run's rule leads on from there. The same seed gives the same result on any number of threads.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Example, after activecell route … --save run.json:
-  activecell simulate run.json --trials 10000
-  activecell simulate run.json --mode task --missing 0.1 --picture way.svg --picture way.gif")]
+Examples (maps/office-run.json is what `activecell route maps/office.yaml … --save` wrote):
+  activecell simulate maps/office-run.json --trials 1000
+  activecell simulate maps/office-run.json --mode task --missing 0.1 --picture way.svg --picture way.gif
+  activecell simulate maps/office-run.json --mode task --appear 7,13@10..40 --save trace.json")]
 pub(crate) struct SimulateArgs {
     /// A file of `route --save`
     #[arg(value_name = "RUN.json")]
