@@ -118,8 +118,10 @@ impl Belief {
         reading_m: f64,
     ) -> (Vec<Cell>, Option<Cell>) {
         let at_m = estimate.pose().at_m;
-        let spread_m = (2.0 * estimate.aside_m(reading_m)).min(self.map.frame().cell_m / 4.0);
-        let slack_m = 3.0 * sensors.noise_m.hypot(estimate.spread_m());
+        let cell_m = self.map.frame().cell_m;
+        // Even perfect sensors round.
+        let spread_m = (2.0 * estimate.aside_m(reading_m)).clamp(cell_m / 100.0, cell_m / 4.0);
+        let slack_m = (3.0 * sensors.noise_m.hypot(estimate.spread_m())).max(cell_m / 100.0);
         let (sin, cos) = bearing_rad.sin_cos();
         let beam = |aside_m: f64| {
             let from_m = [at_m[0] - aside_m * sin, at_m[1] + aside_m * cos];

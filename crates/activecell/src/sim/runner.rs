@@ -14,6 +14,8 @@ use std::f64::consts::PI;
 
 /// The time between two looks.
 const LOOK_S: f64 = 0.05;
+/// So many tries to face a cell.
+const TURNS: usize = 3;
 /// So many looks on the way from one cell to the next.
 const PIECES: f64 = 5.0;
 
@@ -176,13 +178,7 @@ impl<'a> Runner<'a> {
 
     /// Turns, looks, and drives to the centre of `aim`, forwards or back, watching what is ahead.
     pub(super) fn drive(&mut self, turn_rad: f64, back: bool, own: Cell, aim: Cell) -> Result<(), Braked> {
-        // A turn smaller than its own error is not worth making.
-        if turn_rad.abs() > self.robot.errors.turn_rad {
-            self.motion.turn(turn_rad, self.rng);
-            self.estimate.turn(self.robot, turn_rad);
-            self.wait(self.robot.turn_s(turn_rad) + LOOK_S);
-            self.sense();
-        }
+        self.turn(turn_rad, back, aim);
         let sign = if back { -1.0 } else { 1.0 };
         let cell_m = self.belief.map().frame().cell_m;
         let (mut driven_m, mut braked) = (0.0, false);
@@ -213,6 +209,23 @@ impl<'a> Runner<'a> {
             self.wait(self.robot.run_s(driven_m) - driven_m / self.robot.max_speed_mps);
         }
         if braked { Err(Braked { driven_m }) } else { Ok(()) }
+    }
+
+    /// Turns, looks how far it came, and turns the rest. A turn smaller than its own error is not worth making.
+    fn turn(&mut self, mut turn_rad: f64, back: bool, aim: Cell) {
+        let mut least_rad = self.robot.errors.turn_rad;
+        for _ in 0..TURNS {
+            if turn_rad.abs() <= least_rad {
+                return;
+            }
+            self.motion.turn(turn_rad, self.rng);
+            self.estimate.turn(self.robot, turn_rad);
+            self.wait(self.robot.turn_s(turn_rad));
+            self.look();
+            self.look();
+            turn_rad = wrapped(self.angle_to(aim) + if back { PI } else { 0.0 });
+            least_rad = 3.0 * self.robot.errors.turn_rad;
+        }
     }
 
     /// How far ahead, and how far to the left, the cell's centre is believed to be.

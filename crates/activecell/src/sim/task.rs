@@ -70,7 +70,7 @@ impl<'a> Task<'a> {
     ///
     /// # Errors
     /// [`Error::OutsideMap`], [`Error::StartOccupied`], [`Error::TargetOccupied`]; [`Error::TooTight`] if the robot
-    /// needs larger cells; [`Error::BadValue`] if its sensors do not see the next cell; [`Error::NoMemory`] for the
+    /// needs larger cells; [`Error::BadValue`] if its sensors see too little; [`Error::NoMemory`] for the
     /// published rule.
     pub fn run(&self, world: &World, robot: &Robot, rng: &mut Rng) -> Result<Trace, Error> {
         self.map.check_task(self.from, self.to)?;
@@ -102,13 +102,14 @@ impl Room {
     fn for_robot(map: &Map, robot: &Robot) -> Result<Self, Error> {
         let cell_m = map.frame().cell_m;
         let (errors, sensors) = (&robot.errors, &robot.sensors);
+        let too_low = |name, value, allowed| Err(Error::BadValue { name, value, allowed });
         if sensors.range_m < cell_m + robot.radius_m {
-            let (name, value) = ("sensors.range_m", sensors.range_m);
-            return Err(Error::BadValue {
-                name,
-                value,
-                allowed: "at least a cell's size and the robot's radius",
-            });
+            let allowed = "at least a cell's size and the robot's radius, to drive by sensors";
+            return too_low("sensors.range_m", sensors.range_m, allowed);
+        }
+        // With fewer nothing tells how far the robot is from a wall beside it.
+        if sensors.beams < 4 {
+            return too_low("sensors.beams", sensors.beams.into(), "at least 4, to drive by sensors");
         }
         // The passage between two cells is as wide as the side that they share.
         let half_passage = match map.lattice() {
@@ -119,8 +120,8 @@ impl Room {
             Drive::Steered => 0.0,
             Drive::Differential => errors.unevenness_m_per_sqrt_m * (2.0 * cell_m).sqrt() / robot.track_m,
         };
-        // A handful of beams meet something known; what a turn and half a cell's way add comes on top.
-        let bent_m = errors.turn_rad.hypot(wander_rad) * cell_m / 2.0;
+        // A handful of beams meet something known; what headings are off adds up over half a cell's way.
+        let bent_m = errors.turn_rad.hypot(errors.start_rad).hypot(wander_rad) * cell_m / 2.0;
         let spread_m = (sensors.noise_m / 2.0).hypot(bent_m).max(errors.start_m);
         let (aside_m, needed_m) = (half_passage * cell_m - robot.radius_m, 3.0 * spread_m);
         if aside_m < needed_m {
