@@ -95,7 +95,7 @@ fn check_safety(case: &Case, trace: &Trace, name: &str) {
 fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
     let count = std::env::var("ACTIVECELL_WORLDS").ok().and_then(|count| count.parse().ok()).unwrap_or(1000);
     let (mut arrived, mut unreachable, mut found, mut ticks) = (0, 0, 0, 0);
-    let (mut worst_m, mut spread_m, mut driven_m) = (0f64, 0f64, 0.0);
+    let (mut worst_m, mut spread_m, mut driven_m, mut honest) = (0f64, 0f64, 0.0, 0);
     let mut faults = Vec::new();
     for number in 0..count {
         let case = case(number);
@@ -116,7 +116,9 @@ fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
         }
         for tick in &trace.ticks {
             let (true_m, thought_m) = (tick.truth.at_m, tick.estimate.at_m);
-            worst_m = worst_m.max((true_m[0] - thought_m[0]).hypot(true_m[1] - thought_m[1]));
+            let off_m = (true_m[0] - thought_m[0]).hypot(true_m[1] - thought_m[1]);
+            worst_m = worst_m.max(off_m);
+            honest += u64::from(off_m <= 3.0 * tick.spread_m);
             spread_m = spread_m.max(tick.spread_m);
         }
         found += trace.found.len();
@@ -127,6 +129,9 @@ fn a_robot_that_lacks_a_tenth_of_the_obstacles_arrives_and_touches_nothing() {
     println!(
         "{found} obstacles found, {ticks} ticks, {driven_m:.0} m, off by at most {worst_m:.3} m ({spread_m:.3} m thought)"
     );
+    let share = 100.0 * honest as f64 / f64::from(ticks as u32);
+    println!("{share:.2} % of the poses within three standard deviations of where the robot believed to be");
+    assert!(share > 99.0, "{share}");
     assert!(faults.is_empty(), "{}", faults.join("\n"));
     assert!(arrived > count / 2 && unreachable > 0);
 }
