@@ -52,7 +52,8 @@ pub struct OfflineReport {
     pub end_error_m: Distribution,
     /// The share of trials that ended inside the target's cell.
     pub inside_cell: f64,
-    /// The share of trials inside the 95 % region, waypoint by waypoint; the last is the end.
+    /// The share of trials inside the 95 % region, waypoint by waypoint; the last is the end. Empty where the program
+    /// has too many waypoints to sample.
     pub inside_region: Vec<f64>,
     /// Where the regions come from: `sampled` from other trials.
     pub region: &'static str,

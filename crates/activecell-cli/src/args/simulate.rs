@@ -28,7 +28,7 @@ pub(crate) struct SimulateArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) mode: ModeArg,
     /// How often it is driven [default: 1000 offline, 1 task]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) trials: Option<u32>,
     /// Chance
     #[arg(long, default_value_t = 1)]

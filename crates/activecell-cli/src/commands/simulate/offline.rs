@@ -14,8 +14,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 /// If the user does not say how many.
 const TRIALS: u32 = 1000;
-/// Trials from which the regions are sampled.
+/// Trials from which the regions are sampled, the least that make sense, and the waypoints of all that are kept.
 const SAMPLES: u64 = 4000;
+const LEAST_SAMPLES: u64 = 100;
+const MOST_POINTS: u64 = 4_000_000;
 /// They are driven by another chance than those that are counted.
 const OTHER_CHANCE: u64 = 0x5a3c;
 
@@ -35,12 +37,17 @@ pub(crate) fn run(args: &SimulateArgs, stage: &Stage, terminal: &Terminal) -> an
     );
     let offline = Offline::new(&stage.world, &run.program, &run.robot);
     let count = args.trials.unwrap_or(TRIALS);
-    let bar = terminal.counting(u64::from(count) + SAMPLES, "driving");
+    let fitting = MOST_POINTS / run.program.waypoints.len() as u64;
+    let samples = if fitting < LEAST_SAMPLES { 0 } else { fitting.min(SAMPLES) };
+    let bar = terminal.counting(u64::from(count) + samples, "driving");
     let step = || bar.step();
-    let samples: Vec<Trial> =
-        trials(SAMPLES, stage.threads, args.seed ^ OTHER_CHANCE, &step, &|rng| offline.trial(rng));
-    let regions = offline.sampled_regions(&samples);
-    drop(samples);
+    let regions = if samples == 0 {
+        Vec::new()
+    } else {
+        let sampled: Vec<Trial> =
+            trials(samples, stage.threads, args.seed ^ OTHER_CHANCE, &step, &|rng| offline.trial(rng));
+        offline.sampled_regions(&sampled)
+    };
     let inside: Vec<AtomicU64> = regions.iter().map(|_| AtomicU64::new(0)).collect();
     let ends: Vec<End> = trials(count.into(), stage.threads, args.seed, &step, &|rng| {
         let trial = offline.trial(rng);
@@ -113,8 +120,11 @@ fn first_way(args: &SimulateArgs, offline: &Offline<'_>) -> Vec<Pose> {
 /// The result for people.
 fn text(report: &OfflineReport) -> String {
     let Distribution { mean, median, p95, most } = report.end_error_m;
-    let last = report.inside_region.last().copied().unwrap_or(1.0);
     let worst = report.inside_region.iter().copied().fold(1.0, f64::min);
+    let region = match report.inside_region.last() {
+        Some(&last) => format!("{} of the ends, at the worst waypoint {}", percent(last), percent(worst)),
+        None => "not sampled, the program has too many waypoints".to_owned(),
+    };
     let mut lines = vec![
         format!(
             "offline: {} of {:.0} s, no sensor asked",
@@ -125,7 +135,7 @@ fn text(report: &OfflineReport) -> String {
             "end error      mean {mean:.3} m, median {median:.3} m, 95 % below {p95:.3} m, worst {most:.3} m"
         ),
         format!("ended inside   the target's cell {}", percent(report.inside_cell)),
-        format!("95 % region    {} of the ends, at the worst waypoint {}", percent(last), percent(worst)),
+        format!("95 % region    {region}"),
     ];
     lines.push(if report.contacts == 0 {
         "contacts       none".to_owned()
