@@ -11,6 +11,7 @@
 //! | [`calibration`] | what a calibration found: JSON |
 //! | [`run`] | routes and runs: JSON |
 //! | [`certificate`] | certificates, in the routes' JSON |
+//! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
 //! Everything but [`files`] works on bytes in memory. Input is never trusted: sizes that a header declares are
@@ -36,8 +37,10 @@ mod error;
 pub mod files;
 pub mod movingai;
 pub mod raster;
+mod read_run;
 pub mod robot;
 pub mod ros;
 pub mod run;
+pub mod trace;
 
 pub use error::{Error, Place};

@@ -144,6 +144,16 @@ pub(crate) fn to_json(robot: &Robot) -> serde_json::Value {
     json
 }
 
+/// The robot of such JSON; keys that it does not name keep their defaults.
+pub(crate) fn from_json(json: &serde_json::Value) -> Result<Robot, Error> {
+    // TOML holds all that a robot is; a run's robot is read by the one reader of robots.
+    let toml = toml::to_string(json).map_err(|error| Error::file(format!("robot: {error}")))?;
+    read(toml.as_bytes()).map_err(|error| match error {
+        Error::BadFormat { reason, .. } => Error::file(format!("robot: {reason}")),
+        other => other,
+    })
+}
+
 fn read_table(text: &str, section: &str, table: &DeTable<'_>, robot: &mut Robot) -> Result<(), Error> {
     // In the order of the file, so that the first mistake is the one that is told.
     let mut entries: Vec<_> = table.iter().collect();

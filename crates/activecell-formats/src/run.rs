@@ -1,10 +1,13 @@
 //! Runs: a map, a robot, a task and its route in one JSON file, and the route's report that commands print.
 
+pub use crate::read_run::{MAX_RUN_BYTES, Run, read};
+
 use crate::certificate::CertificateReport;
 use crate::error::Error;
 use crate::robot::to_json;
 use activecell::{Cell, Dir, Effort, Elevation, Map, Outcome, Program, Robot, Route, Rule};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The version of the run files that are written.
 pub const VERSION: u32 = 1;
@@ -160,45 +163,46 @@ impl RouteReport {
 }
 
 #[derive(Serialize)]
-struct Run<'a> {
+struct Written<'a> {
     activecell: &'static str,
     version: u32,
-    map: RunMap,
+    map: MapRows,
     robot: serde_json::Value,
     from: [i32; 2],
     to: [i32; 2],
     route: &'a RouteReport,
 }
 
-#[derive(Serialize)]
-struct RunMap {
-    lattice: &'static str,
-    cell_m: f64,
-    origin_m: [f64; 2],
-    yaw_rad: f64,
-    rows: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    elevation: Option<RunElevation>,
+/// A map in a JSON file.
+#[derive(Serialize, Deserialize)]
+pub(crate) struct MapRows {
+    pub(crate) lattice: Cow<'static, str>,
+    pub(crate) cell_m: f64,
+    pub(crate) origin_m: [f64; 2],
+    pub(crate) yaw_rad: f64,
+    pub(crate) rows: Vec<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) elevation: Option<ElevationRows>,
 }
 
 /// The heights under a map; null where there is none.
-#[derive(Serialize)]
-struct RunElevation {
-    ground: &'static str,
-    columns: u32,
-    rows: u32,
-    apart_m: [f64; 2],
-    corner_m: [f64; 2],
-    yaw_rad: f64,
-    heights_m: Vec<Option<f32>>,
+#[derive(Serialize, Deserialize)]
+pub(crate) struct ElevationRows {
+    pub(crate) ground: Cow<'static, str>,
+    pub(crate) columns: u32,
+    pub(crate) rows: u32,
+    pub(crate) apart_m: [f64; 2],
+    pub(crate) corner_m: [f64; 2],
+    pub(crate) yaw_rad: f64,
+    pub(crate) heights_m: Vec<Option<f32>>,
 }
 
-impl RunElevation {
+impl ElevationRows {
     fn of(map: &Map, elevation: &Elevation) -> Self {
         let posts = elevation.posts();
         let heights = elevation.heights_m().iter();
         Self {
-            ground: map.ground().name(),
+            ground: map.ground().name().into(),
             columns: elevation.columns(),
             rows: elevation.rows(),
             apart_m: posts.apart_m,
@@ -209,23 +213,30 @@ impl RunElevation {
     }
 }
 
+impl MapRows {
+    /// The map as text, with its lattice, frame and heights.
+    pub(crate) fn of(map: &Map) -> Self {
+        let frame = map.frame();
+        Self {
+            lattice: map.lattice().name().into(),
+            cell_m: frame.cell_m,
+            origin_m: frame.origin_m,
+            yaw_rad: frame.yaw_rad,
+            rows: map.to_text().lines().map(str::to_owned).collect(),
+            elevation: map.elevation().map(|elevation| ElevationRows::of(map, elevation)),
+        }
+    }
+}
+
 /// A run as JSON: everything that is needed to drive it again.
 ///
 /// # Errors
 /// None that a value of these types can cause; the signature is that of the JSON library.
 pub fn write(map: &Map, robot: &Robot, from: Cell, to: Cell, route: &RouteReport) -> Result<String, Error> {
-    let frame = map.frame();
-    let run = Run {
+    let run = Written {
         activecell: "run",
         version: VERSION,
-        map: RunMap {
-            lattice: map.lattice().name(),
-            cell_m: frame.cell_m,
-            origin_m: frame.origin_m,
-            yaw_rad: frame.yaw_rad,
-            rows: map.to_text().lines().map(str::to_owned).collect(),
-            elevation: map.elevation().map(|elevation| RunElevation::of(map, elevation)),
-        },
+        map: MapRows::of(map),
         robot: to_json(robot),
         from: [from.x, from.y],
         to: [to.x, to.y],

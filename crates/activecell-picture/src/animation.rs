@@ -144,14 +144,14 @@ fn opaque(Rgb(r, g, b): Rgb) -> PremultipliedColorU8 {
 }
 
 /// What lies below the obstacles and changes, and what lies above and does not.
-struct Stage {
-    below: Pixmap,
-    above: Pixmap,
+pub(crate) struct Stage {
+    pub(crate) below: Pixmap,
+    pub(crate) above: Pixmap,
 }
 
 impl Stage {
     /// The frame with these shapes on top.
-    fn frame(&self, moving: &[Shape]) -> Pixmap {
+    pub(crate) fn frame(&self, moving: &[Shape]) -> Pixmap {
         let mut frame = self.below.clone();
         for (pixel, above) in frame.data_mut().chunks_exact_mut(4).zip(self.above.data().chunks_exact(4)) {
             match above[3] {
@@ -171,7 +171,7 @@ impl Stage {
 }
 
 /// The file as it is written.
-struct Film {
+pub(crate) struct Film {
     encoder: gif::Encoder<Vec<u8>>,
     palette: Palette,
     /// The last frame, and the colour numbers that stand for it.
@@ -183,7 +183,7 @@ struct Film {
 
 impl Film {
     /// A film whose first frame covers all of it.
-    fn new(first: &Pixmap, delay_cs: u16, uneven: bool) -> Result<Self, Error> {
+    pub(crate) fn new(first: &Pixmap, delay_cs: u16, uneven: bool) -> Result<Self, Error> {
         let (width, height) = (first.width(), first.height());
         let size = |size: u32| u16::try_from(size).map_err(|_| Error::Canvas { width, height });
         let (w, h) = (size(width)?, size(height)?);
@@ -203,7 +203,7 @@ impl Film {
     }
 
     /// Adds a frame: the smallest rectangle that holds all changes, the rest of it “as before”.
-    fn shoot(&mut self, frame: &Pixmap, delay_cs: u16) -> Result<(), Error> {
+    pub(crate) fn shoot(&mut self, frame: &Pixmap, delay_cs: u16) -> Result<(), Error> {
         let Some((columns, rows)) = self.changed(frame) else {
             self.waiting.delay = self.waiting.delay.saturating_add(delay_cs);
             return Ok(());
@@ -253,7 +253,7 @@ impl Film {
         top.map(|top| (left..right, top..bottom))
     }
 
-    fn finish(mut self) -> Result<Vec<u8>, Error> {
+    pub(crate) fn finish(mut self) -> Result<Vec<u8>, Error> {
         self.encoder.write_frame(&self.waiting).map_err(|error| encoding(&error))?;
         self.encoder.into_inner().map_err(|error| Error::Encoding(error.to_string()))
     }

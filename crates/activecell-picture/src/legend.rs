@@ -1,13 +1,15 @@
 //! The footer: scale bar and legend, in as many rows as they need.
 
 use crate::colour::{
-    self, BLUE, BLUE_TINT, CLOSED, EDGE, OBSTACLE, ORANGE_RIM, PURPLE, PURPLE_TINT, TEXT, YELLOW,
+    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, ORANGE_RIM, PURPLE, PURPLE_TINT, TEXT,
+    VERMILLION, YELLOW,
 };
 use crate::font;
 use crate::layout::{Layout, round_length};
 use crate::region;
 use crate::route;
 use crate::scene::{Line, Point, Shape, Text};
+use crate::simulation;
 use activecell::{Elevation, Map};
 
 /// Something that the legend explains.
@@ -24,6 +26,13 @@ pub(crate) enum Key {
     Obstacle,
     Closed,
     Height,
+    Planned,
+    Driven,
+    Believed,
+    Ends,
+    Contact,
+    Found,
+    Beam,
 }
 
 /// Swatches of the wave's colours.
@@ -42,6 +51,13 @@ impl Key {
             Self::Wave => "wave, near to far",
             Self::Obstacle => "obstacle",
             Self::Closed => "no room",
+            Self::Planned => "planned",
+            Self::Driven => "driven",
+            Self::Believed => "believed",
+            Self::Ends => "ends of drives",
+            Self::Contact => "contact",
+            Self::Found => "found obstacle",
+            Self::Beam => "beams",
             Self::Height => return heights(map),
         };
         label.to_owned()
@@ -50,7 +66,13 @@ impl Key {
     /// Width of the icon, in multiples of the text's size.
     const fn icon_width(self) -> f64 {
         match self {
-            Self::Route | Self::Trapped | Self::Region => 2.0,
+            Self::Route
+            | Self::Trapped
+            | Self::Region
+            | Self::Planned
+            | Self::Driven
+            | Self::Believed
+            | Self::Beam => 2.0,
             Self::Wave | Self::Height => 4.0,
             Self::Turn => 0.8,
             _ => 1.2,
@@ -90,6 +112,31 @@ impl Key {
                     shapes.push(Shape::area(vec![rectangle(left, y - 0.5 * size, rest, size)], tint));
                 }
                 outline(shapes, rectangle(x, y - 0.5 * size, width, size));
+            }
+            Self::Planned | Self::Driven | Self::Believed | Self::Beam => {
+                let (colour, stroke, dash) = match self {
+                    Self::Planned => (BLUE_TINT, 0.7 * size, None),
+                    Self::Driven => (VERMILLION, 2.2, None),
+                    Self::Believed => (BLUE, 1.8, Some(6.0)),
+                    _ => (GREEN, 1.2, None),
+                };
+                let run = vec![[x + 3.0, y], [x + width - 3.0, y]];
+                shapes.push(Shape::lines(vec![run], Line { colour, width: stroke, dash }));
+            }
+            Self::Ends => {
+                for (dx, dy) in [(-4.0, 1.0), (-1.5, -2.5), (0.5, 2.5), (2.0, -0.5), (4.5, -3.0), (4.0, 3.0)]
+                {
+                    let centre = [middle[0] + dx, middle[1] + dy];
+                    shapes.push(Shape::Disc { centre, radius: 1.1, fill: PURPLE, line: None });
+                }
+            }
+            Self::Contact => simulation::contact(shapes, middle, 0.36 * size),
+            Self::Found => {
+                let side = 0.95 * size;
+                let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
+                shapes.push(Shape::lines(simulation::hatching(&square, 4.0), Line::new(ORANGE, 1.4)));
+                let line = Some(Line::new(ORANGE, 1.6));
+                shapes.push(Shape::Path { runs: vec![square], closed: true, fill: None, line });
             }
             Self::Obstacle | Self::Closed => {
                 let fill = if self == Self::Obstacle { OBSTACLE } else { CLOSED };

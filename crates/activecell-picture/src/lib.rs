@@ -48,6 +48,7 @@ mod region;
 mod route;
 mod sample;
 mod scene;
+mod simulation;
 mod svg;
 mod terminal;
 
@@ -55,6 +56,9 @@ use activecell::predict::{Closures, Plan};
 use activecell::{Cell, Map, Region};
 pub use drives::{DrivePanel, drives_png, drives_svg};
 use figure::Figure;
+pub use simulation::{
+    Moment, MovingPicture, SimulationPicture, simulation_gif, simulation_png, simulation_svg,
+};
 
 /// When the wave from the target reached a cell; `None` where it did not come.
 pub type Wave<'a> = &'a dyn Fn(Cell) -> Option<u32>;

@@ -1,9 +1,9 @@
 //! The ellipses in which a robot is with 95 %.
 
-use crate::RoutePicture;
 use crate::colour::{PAGE, PURPLE};
 use crate::layout::Layout;
 use crate::scene::{Line, Point, Shape};
+use activecell::{Map, Region};
 use std::f64::consts::TAU;
 
 /// Corners of the polygon that stands for an ellipse.
@@ -12,16 +12,16 @@ const CORNERS: u32 = 72;
 const LEAST_PX: f64 = 3.0;
 
 /// The outlines of all ellipses that can be seen, cut off at the map's edge.
-pub(crate) fn shapes(layout: &Layout, picture: &RoutePicture<'_>) -> Vec<Shape> {
-    let px = layout.cell / picture.map.frame().cell_m;
+pub(crate) fn shapes(layout: &Layout, map: &Map, regions: &[Region]) -> Vec<Shape> {
+    let px = layout.cell / map.frame().cell_m;
     let mut runs = Vec::new();
-    for region in picture.regions.iter().filter(|region| region.semi_major_m * px >= LEAST_PX) {
+    for region in regions.iter().filter(|region| region.semi_major_m * px >= LEAST_PX) {
         let (sin, cos) = region.angle_rad.sin_cos();
         let flatness = region.semi_minor_m / region.semi_major_m;
         let points = ellipse(flatness, |along, across| {
             let (along, across) = (along * region.semi_major_m, across * region.semi_major_m);
             let [x, y] = region.centre_m;
-            layout.floor_point(picture.map, [x + along * cos - across * sin, y + along * sin + across * cos])
+            layout.floor_point(map, [x + along * cos - across * sin, y + along * sin + across * cos])
         });
         let inside = |point: &Point| {
             (0..2).all(|axis| {

@@ -55,7 +55,7 @@ impl<'a> Route<'a> {
         add(self.cells.len() > self.cycle.len() + 1, Key::Route);
         add(self.turn_radius > 0.0 && !self.picture.turns.is_empty(), Key::Turn);
         add(!self.cycle.is_empty(), Key::Trapped);
-        add(!region::shapes(self.layout, self.picture).is_empty(), Key::Region);
+        add(!region::shapes(self.layout, self.picture.map, self.picture.regions).is_empty(), Key::Region);
         add(wave, Key::Wave);
         keys
     }
@@ -80,7 +80,7 @@ impl<'a> Route<'a> {
         if self.numbered {
             self.numbers(&mut shapes);
         }
-        shapes.extend(region::shapes(self.layout, self.picture));
+        shapes.extend(region::shapes(self.layout, self.picture.map, self.picture.regions));
         self.turns(&mut shapes);
         shapes.extend(marks(self.layout, self.picture));
         shapes

@@ -80,6 +80,17 @@ pub enum Error {
         /// What is wrong and what would be right.
         reason: &'static str,
     },
+    /// Cells in which the robot cannot keep clear of obstacles.
+    TooTight {
+        /// The size of the cells.
+        cell_m: f64,
+        /// The robot's radius.
+        radius_m: f64,
+        /// The least size that its errors and sensors allow.
+        least_m: f64,
+    },
+    /// A rule that circles for ever was to find a way among unknown obstacles.
+    NoMemory,
     /// Bytes that are no embedded map.
     BadEmbedded {
         /// The byte, counted from 0.
@@ -114,6 +125,16 @@ impl fmt::Display for Error {
             }
             Self::BadLog { row: Some(row), reason } => write!(f, "row {row} of the log: {reason}"),
             Self::BadLog { row: None, reason } => f.write_str(reason),
+            Self::TooTight { cell_m, radius_m, least_m } => write!(
+                f,
+                "cells of {cell_m} m are too small for a robot of radius {radius_m} m to keep clear of obstacles with its errors and sensors; use cells of at least {least_m:.3} m"
+            ),
+            Self::NoMemory => {
+                write!(
+                    f,
+                    "the rule `published` has no memory for what is found on the way; use `wave` or `learning`"
+                )
+            }
             Self::BadEmbedded { offset, reason } => {
                 write!(f, "embedded map, byte {offset}: {reason}; make the file anew")
             }

@@ -42,6 +42,8 @@ mod rng;
 mod route;
 pub mod rule;
 mod search;
+pub mod sense;
+pub mod sim;
 mod wave;
 
 pub use calibrate::{

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 14] = [
+const LAYERS: [&str; 16] = [
     "rng",
     "lattice",
     "error",
@@ -21,7 +21,9 @@ const LAYERS: [&str; 14] = [
     "control",
     "error_budget",
     "calibrate",
+    "sense",
     "predict",
+    "sim",
 ];
 const MAX_LINES: usize = 600;
 

@@ -3,12 +3,14 @@
 mod calibrate;
 mod ground;
 mod place;
+mod simulate;
 
 use activecell::{Lattice, Rule};
 pub(crate) use calibrate::CalibrateArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use ground::GroundArgs;
 pub(crate) use place::{Place, heading};
+pub(crate) use simulate::{ModeArg, SimulateArgs};
 use std::path::PathBuf;
 
 const EXAMPLES: &str = "\
@@ -38,6 +40,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Route(RouteArgs),
+    Simulate(SimulateArgs),
     Scen(ScenArgs),
     Info(InfoArgs),
     Convert(ConvertArgs),

@@ -10,6 +10,7 @@ mod load;
 mod relief;
 mod route;
 mod scen;
+mod simulate;
 mod success;
 mod table;
 
@@ -30,6 +31,7 @@ pub(crate) enum Done {
 pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done> {
     match command {
         Command::Route(args) => return route::run(&args, terminal),
+        Command::Simulate(args) => return simulate::run(&args, terminal),
         Command::Scen(args) => return scen::run(&args, terminal),
         Command::Info(args) => info::run(&args, terminal)?,
         Command::Convert(args) => convert::run(&args, terminal)?,

@@ -214,6 +214,25 @@ impl Map {
         self.frame.to_floor([x as f64 * ux * self.frame.cell_m, self.size_m()[1] - down_m])
     }
 
+    /// The cell's corners on the floor, clockwise from the top left (square) or the top (hexagon).
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice, Map};
+    /// let map = Map::parse(Lattice::Square, "..")?;
+    /// assert_eq!(map.corners_m(Cell::new(1, 0)), [[1.0, 1.0], [2.0, 1.0], [2.0, 0.0], [1.0, 0.0]]);
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn corners_m(&self, cell: Cell) -> Vec<PointM> {
+        let (ux, uy) = self.lattice.unit_m();
+        let centre_m = self.centre_m(cell);
+        let (sin, cos) = self.frame.yaw_rad.sin_cos();
+        let corner = |&(dx, dy): &(i64, i64)| {
+            let (x, y) = (dx as f64 * ux * self.frame.cell_m, -dy as f64 * uy * self.frame.cell_m);
+            [centre_m[0] + cos * x - sin * y, centre_m[1] + sin * x + cos * y]
+        };
+        self.lattice.corners().iter().map(corner).collect()
+    }
+
     /// The cell that contains a point of the floor; it may lie outside the map.
     pub fn cell_at_m(&self, point: PointM) -> Cell {
         let [x, y] = self.frame.to_mosaic(point);

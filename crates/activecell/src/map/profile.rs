@@ -16,6 +16,9 @@ pub enum Ground {
 }
 
 impl Ground {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Segments, Self::Surface];
+
     /// The name on the command line and in files.
     pub const fn name(self) -> &'static str {
         match self {

@@ -84,17 +84,35 @@ impl Program {
     }
 }
 
+impl Robot {
+    /// How long a run takes from rest to rest, in seconds; its length may be negative.
+    ///
+    /// ```
+    /// let robot = activecell::Robot { max_speed_mps: 1.0, max_accel_mps2: 0.5, ..activecell::Robot::default() };
+    /// assert_eq!((robot.run_s(10.0), robot.run_s(-2.0)), (12.0, 4.0));
+    /// ```
+    pub fn run_s(&self, length_m: f64) -> f64 {
+        let (run_m, speed, accel) = (length_m.abs(), self.max_speed_mps, self.max_accel_mps2);
+        if run_m * accel >= speed * speed {
+            run_m / speed + speed / accel
+        } else {
+            2.0 * (run_m / accel).sqrt()
+        }
+    }
+
+    /// How long a turn takes, in seconds.
+    pub fn turn_s(&self, turn_rad: f64) -> f64 {
+        turn_rad.abs() / self.turn_rate_radps
+    }
+}
+
 /// Of one run and the turn after it.
 fn effort(robot: &Robot, waypoint: &Waypoint) -> Effort {
     let power = &robot.power;
     let run_m = waypoint.revolutions.abs() * robot.wheel_perimeter_m;
-    let (speed, accel) = (robot.max_speed_mps, robot.max_accel_mps2);
-    let (run_s, top_mps) = if run_m * accel >= speed * speed {
-        (run_m / speed + speed / accel, speed)
-    } else {
-        (2.0 * (run_m / accel).sqrt(), (run_m * accel).sqrt())
-    };
-    let turn_s = f64::from(waypoint.turn_deg.abs()).to_radians() / robot.turn_rate_radps;
+    let top_mps = robot.max_speed_mps.min((run_m * robot.max_accel_mps2).sqrt());
+    let run_s = robot.run_s(run_m);
+    let turn_s = robot.turn_s(f64::from(waypoint.turn_deg).to_radians());
     let (arc_m, spin_j) = match robot.drive {
         Drive::Differential if waypoint.turn_deg != 0 => {
             // The body as a disc.

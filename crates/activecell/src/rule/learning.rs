@@ -78,6 +78,27 @@ impl Levels {
         Some(dir)
     }
 
+    /// Takes note that a cell of the map has become free or an obstacle.
+    ///
+    /// Where cells only close, what was learnt stays true: ways become longer. Where one opened, levels may be too
+    /// high; the robot still arrives, but a high level proves nothing any more.
+    pub(crate) fn changed(&mut self, map: &Map, cell: Cell) {
+        let Some(index) = map.index(cell) else { return };
+        let lattice = map.lattice();
+        let visited = |near: Cell| map.index(near).is_some_and(|index| self.seen[index] == Seen::Visited);
+        match (self.seen[index], map.is_free(cell)) {
+            (Seen::Beside, false) => {
+                self.seen[index] = Seen::Not;
+                self.frontier -= 1;
+            }
+            (Seen::Not, true) if lattice.dirs().any(|dir| visited(lattice.neighbour(cell, dir))) => {
+                self.seen[index] = Seen::Beside;
+                self.frontier += 1;
+            }
+            _ => {}
+        }
+    }
+
     fn visit(&mut self, map: &Map, cell: Cell) {
         let Some(index) = map.index(cell) else { return };
         match self.seen[index] {
