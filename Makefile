@@ -23,6 +23,12 @@ demo: $(ACTIVECELL)
 	done; done
 	@printf '\n== office, squares, in the terminal\n'
 	@$(ACTIVECELL) route $(OFFICE) --draw always | head -26
+	@printf '\n== office, how far the robot can be trusted\n'
+	@$(ACTIVECELL) route maps/office.yaml --cell 0.5 --from 1.2m,1.5m --to 19m,11m --robot maps/robot.toml \
+	    --draw never --save out/run.json --picture out/certificate.png
+	@printf '\n== the same, driven 10,000 times without sensors, and once with sensors where a tenth of the obstacles is unknown\n'
+	@$(ACTIVECELL) simulate out/run.json --trials 10000 --picture out/offline.png
+	@$(ACTIVECELL) simulate maps/office-run.json --mode task --missing 0.1 --seed 3 --picture out/task.gif
 	@printf '\nThe pictures are in out/: .svg and .png show the route, .gif the wave and the robot moving.\n'
 	@ls out/*.svg out/*.png out/*.gif
 
