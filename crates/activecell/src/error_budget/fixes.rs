@@ -110,9 +110,13 @@ struct Step {
 /// After how many steps the robot is first in its cell with less than this probability.
 fn first_below(mut walk: Walk<'_>, steps: &[Step], threshold: f64) -> Option<usize> {
     steps.iter().position(|Step { legs, turn, .. }| {
-        legs.iter().for_each(|&leg| walk.drive(leg));
+        for &leg in legs {
+            walk.drive(leg);
+        }
         let is_below = walk.known().inside < threshold;
-        turn.iter().for_each(|&leg| walk.drive(leg));
+        if let &Some(leg) = turn {
+            walk.drive(leg);
+        }
         is_below
     })
 }

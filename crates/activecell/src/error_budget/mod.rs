@@ -15,6 +15,7 @@ mod trusted;
 mod walk;
 
 pub use fixes::{Fix, Fixes};
+pub use normal::REGION_95;
 pub use trusted::TrustedRoute;
 
 use crate::lattice::Cell;
