@@ -164,8 +164,10 @@ fn read_table(text: &str, section: &str, table: &DeTable<'_>, robot: &mut Robot)
             section.is_empty() && KEYS.iter().any(|(known, _)| known.starts_with(&format!("{path}.")));
         match (KEYS.iter().find(|(known, _)| *known == path), value.get_ref()) {
             (Some((name, slot)), value_read) => {
-                set(slot, value_read, robot)
-                    .map_err(|expected| at(text, value.span(), format!("{name} must be {expected}")))?;
+                set(slot, value_read, robot).map_err(|expected| {
+                    let found = quoted(text.get(value.span()).unwrap_or_default());
+                    at(text, value.span(), format!("{name} is {found}; it must be {expected}"))
+                })?;
                 let checked = robot.checked();
                 checked.map_err(|error| at(text, value.span(), error.to_string()))?;
             }
@@ -176,13 +178,19 @@ fn read_table(text: &str, section: &str, table: &DeTable<'_>, robot: &mut Robot)
                 return Err(at(text, value.span(), format!("{path} must be a section: [{path}]")));
             }
             (None, _) => {
-                let reason = format!("unknown key {}; did you mean {}?", quoted(&path), nearest(&path));
+                let is_table = matches!(value.get_ref(), DeValue::Table(_));
+                let (kind, known) =
+                    if is_table { ("section", nearest_section(&path)) } else { ("key", nearest(&path)) };
+                let reason = format!("unknown {kind} {}; did you mean {known}?", quoted(&path));
                 return Err(at(text, key.span(), reason));
             }
         }
     }
     Ok(())
 }
+
+/// What a count must be, before its range is looked at.
+const COUNT: &str = "a whole number from 0 to 4294967295";
 
 /// Puts the value where it belongs, or says what it should be.
 fn set(slot: &Slot, value: &DeValue<'_>, robot: &mut Robot) -> Result<(), &'static str> {
@@ -198,7 +206,7 @@ fn set(slot: &Slot, value: &DeValue<'_>, robot: &mut Robot) -> Result<(), &'stat
         }
         (Slot::Count(field), DeValue::Integer(number)) => {
             let count = u32::from_str_radix(number.as_str(), number.radix());
-            *field(robot) = count.map_err(|_| "a whole number")?;
+            *field(robot) = count.map_err(|_| COUNT)?;
         }
         (Slot::Flag(field), DeValue::Boolean(flag)) => *field(robot) = *flag,
         (Slot::Drive, DeValue::String(name)) => {
@@ -206,7 +214,7 @@ fn set(slot: &Slot, value: &DeValue<'_>, robot: &mut Robot) -> Result<(), &'stat
             robot.drive = known.ok_or("\"steered\" or \"differential\"")?;
         }
         (Slot::Number(_), _) => return Err("a number"),
-        (Slot::Count(_), _) => return Err("a whole number"),
+        (Slot::Count(_), _) => return Err(COUNT),
         (Slot::Flag(_), _) => return Err("true or false"),
         (Slot::Drive, _) => return Err("\"steered\" or \"differential\""),
     }
@@ -226,6 +234,14 @@ fn nearest(path: &str) -> String {
         Some((section, name)) => format!("`{name}` in [{section}]"),
         None => format!("`{}`", best.unwrap_or_default()),
     }
+}
+
+/// The known section that is most like this one.
+fn nearest_section(path: &str) -> String {
+    let sections = KEYS.iter().filter_map(|(known, _)| Some(known.split_once('.')?.0));
+    let likeness = |section: &str| strsim::jaro_winkler(section, path);
+    let best = sections.max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    format!("[{}]", best.unwrap_or_default())
 }
 
 fn at(text: &str, span: Range<usize>, reason: String) -> Error {
@@ -293,8 +309,20 @@ mod tests {
         let cases = [
             ("track_m = -1", "line 1, column 11: track_m is -1; it must be between 0.000001 and 1000000"),
             ("\nradius_m = nan", "line 2, column 12: radius_m is NaN; it must be between 0 and 1000000"),
-            ("track_m = \"0.2\"", "line 1, column 11: track_m must be a number"),
-            ("drive = \"tank\"", "line 1, column 9: drive must be \"steered\" or \"differential\""),
+            ("track_m = \"0.2\"", "line 1, column 11: track_m is `\"0.2\"`; it must be a number"),
+            (
+                "drive = \"tank\"",
+                "line 1, column 9: drive is `\"tank\"`; it must be \"steered\" or \"differential\"",
+            ),
+            (
+                "sensors.beams = -1",
+                "line 1, column 17: sensors.beams is `-1`; it must be a whole number from 0 to 4294967295",
+            ),
+            (
+                "track_m = 1e300",
+                "line 1, column 11: track_m is 1e300; it must be between 0.000001 and 1000000",
+            ),
+            ("[error]\nturn_rad = 1", "line 1, column 2: unknown section `error`; did you mean [errors]?"),
             (
                 "turn_rad = 0.1",
                 "line 1, column 1: unknown key `turn_rad`; did you mean `turn_rad` in [errors]?",

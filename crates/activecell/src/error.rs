@@ -138,7 +138,13 @@ impl fmt::Display for Error {
             Self::BadEmbedded { offset, reason } => {
                 write!(f, "embedded map, byte {offset}: {reason}; make the file anew")
             }
-            Self::BadValue { name, value, allowed } => write!(f, "{name} is {value}; it must be {allowed}"),
+            // Not with hundreds of digits.
+            Self::BadValue { name, value, allowed }
+                if (1e-9..1e16).contains(&value.abs()) || *value == 0.0 =>
+            {
+                write!(f, "{name} is {value}; it must be {allowed}")
+            }
+            Self::BadValue { name, value, allowed } => write!(f, "{name} is {value:e}; it must be {allowed}"),
         }
     }
 }

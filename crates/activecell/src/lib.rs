@@ -47,12 +47,12 @@ pub mod sim;
 mod wave;
 
 pub use calibrate::{
-    Calibration, DriveLog, EndError, LogRow, Odometry, REGION_95, SquareErrors, TruthNoise, calibrate,
+    Calibration, DriveLog, EndError, LogRow, Odometry, SquareErrors, TruthNoise, calibrate,
     deviations_squared, umbmark,
 };
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
-pub use error_budget::{Certificate, Fix, Fixes, Method, Region, Trust, TrustedRoute};
+pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{
     BitPlane, Clearance, Elevation, Frame, Ground, MAX_CELLS, Map, PointM, Posts, Profile, Tiling,

@@ -20,7 +20,7 @@ pub(crate) struct CalibrateArgs {
     /// Judge the fit on these logs instead
     #[arg(long, value_name = "LOG.csv|FOLDER", num_args = 1..)]
     pub(crate) hold_out: Vec<PathBuf>,
-    /// The robot as it is thought to be [default: that of the logs' metadata, else a small one]
+    /// The robot as it is thought to be [default: that of the logs' metadata; needed without]
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) robot: Option<PathBuf>,
     /// How well the truth is measured at the best, in metres: a tracked marker is never quite above the axle's middle

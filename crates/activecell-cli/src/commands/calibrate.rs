@@ -9,6 +9,9 @@ use activecell_formats::{files, robot};
 use activecell_picture::{DrivePanel, drives_png, drives_svg};
 use std::path::{Path, PathBuf};
 
+/// More unevenness of a floor than this is doubted: a real one has a tenth of it.
+const DOUBTFUL_M_PER_SQRT_M: f64 = 0.03;
+
 /// Logs that were driven together.
 struct Session {
     folder: PathBuf,
@@ -66,6 +69,12 @@ pub(crate) fn run(args: &CalibrateArgs, terminal: &Terminal) -> anyhow::Result<(
     };
     let fitted: Vec<&[DriveLog]> = sessions.iter().map(|session| session.logs.as_slice()).collect();
     let found = calibrate(&fitted, &nominal)?;
+    if found.robot.errors.unevenness_m_per_sqrt_m > DOUBTFUL_M_PER_SQRT_M {
+        terminal.note(&format!(
+            "note: after one metre dead reckoning is off by {:.2} m whatever the wheels: are the wheels' columns swapped, a sign, ticks_per_rev or the bearing wrong?",
+            found.robot.errors.unevenness_m_per_sqrt_m
+        ));
+    }
     let (held_out, judged) = hold_out(args, &sessions, &others, &nominal, &found, terminal)?;
 
     if let Some(path) = &args.output {
@@ -104,7 +113,9 @@ fn read(
             let reason = "its metadata describe another robot than those before; calibrate each robot alone";
             return Err(anyhow::anyhow!("{}: {reason}", path.display()));
         }
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        // However it is written, a folder is one session.
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = folder.canonicalize().unwrap_or(folder.to_owned());
         let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         // Names of the OptiOdom data set begin with their folder's.
         let name = match folder.file_name().map(|name| name.to_string_lossy()) {
@@ -112,6 +123,9 @@ fn read(
             _ => stem,
         };
         match sessions.iter_mut().find(|session| session.folder == folder) {
+            Some(session) if session.names.contains(&name) => {
+                return Err(WrongArgument(format!("{} is named twice; name it once", path.display())).into());
+            }
             Some(session) => {
                 session.names.push(name);
                 session.logs.push(log);

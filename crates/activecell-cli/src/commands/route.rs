@@ -124,7 +124,8 @@ fn solve(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Solved> {
     map.check_task(from, to)?;
     let wanted = match args.clearance {
         Some(wanted_m) => Some(map.terrain_kept_clear(from, to, wanted_m)?),
-        None if uneven => {
+        // Who is there already needs no step.
+        None if uneven && from != to => {
             let terrain = map.terrain_for(&robot)?;
             terrain.map().check_task(from, to)?;
             Some(terrain)

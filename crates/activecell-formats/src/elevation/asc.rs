@@ -16,6 +16,9 @@ struct Header {
     nodata: Option<f64>,
 }
 
+/// What stands for no height in a grid that does not say (Esri, *ASCII raster format*).
+const NODATA: f64 = -9999.0;
+
 pub(super) fn read(bytes: &[u8]) -> Result<Values, Error> {
     let mut words = Words { bytes, at: 0 };
     let mut header = Header::default();
@@ -46,7 +49,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Values, Error> {
     } else {
         Place::Metres { apart, corner }
     };
-    let heights = heights(bytes, begin, columns as usize * rows as usize, header.nodata)?;
+    let heights = heights(bytes, begin, columns as usize * rows as usize, header.nodata.or(Some(NODATA)))?;
     Ok(Values { columns, rows, heights, place })
 }
 
@@ -153,5 +156,21 @@ impl<'a> Iterator for Words<'a> {
         let length = word.iter().position(u8::is_ascii_whitespace).unwrap_or(word.len());
         self.at = begin + length;
         Some((begin, &word[..length]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_grid_that_does_not_say_has_the_usual_number_for_no_height() {
+        let read = |nodata: &str| {
+            read(format!("ncols 3\nnrows 1\ncellsize 1\n{nodata}-9999 -1 2\n").as_bytes()).unwrap().heights
+        };
+        let unsaid = read("");
+        assert!(unsaid[0].is_nan() && unsaid[1..] == [-1.0, 2.0]);
+        let said = read("NODATA_value -1\n");
+        assert!(said[1].is_nan() && (said[0], said[2]) == (-9999.0, 2.0));
     }
 }

@@ -1,7 +1,8 @@
 //! A log: what the encoders counted, and where the robot really was.
 
-use super::odometry::{Odometry, REGION_95, deviations_squared};
+use super::odometry::{Odometry, deviations_squared};
 use crate::error::Error;
+use crate::error_budget::REGION_95;
 use crate::map::PointM;
 use crate::program::{Errors, Pose, Robot};
 use std::f64::consts::{PI, TAU};

@@ -9,5 +9,5 @@ mod umbmark;
 
 pub use fit::{Calibration, calibrate};
 pub use log::{DriveLog, EndError, LogRow, TruthNoise};
-pub use odometry::{Odometry, REGION_95, deviations_squared};
+pub use odometry::{Odometry, deviations_squared};
 pub use umbmark::{SquareErrors, umbmark};

@@ -1,12 +1,8 @@
 //! Dead reckoning from encoder ticks, with its covariance.
 
-use super::algebra::{Matrix, ZERO, apply, diagonal, plus, scaled, through, times};
+use super::algebra::{Matrix, ZERO, diagonal, plus, scaled, through, times};
 use crate::map::PointM;
 use crate::program::{Errors, Pose, Robot};
-
-/// A point of the plane is within the 95 % region of a normal distribution if the square of its distance from the
-/// centre, measured in standard deviations, is at most this: χ² with two degrees of freedom.
-pub const REGION_95: f64 = 5.991;
 
 /// Where a differential robot is by its wheels' encoders alone, and how that depends on its wheels.
 ///
@@ -147,7 +143,6 @@ pub fn deviations_squared(covariance: &[[f64; 3]; 3], off_m: PointM) -> f64 {
     if whole.is_nan() || whole <= 0.0 {
         return f64::INFINITY;
     }
-    let inverse = [[yy / whole, -xy / whole, 0.0], [-xy / whole, xx / whole, 0.0], [0.0; 3]];
-    let seen = apply(&inverse, &[off_m[0], off_m[1], 0.0]);
-    off_m[0] * seen[0] + off_m[1] * seen[1]
+    let [x, y] = off_m;
+    (yy * x * x - 2.0 * xy * x * y + xx * y * y) / whole
 }

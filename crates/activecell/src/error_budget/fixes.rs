@@ -1,10 +1,11 @@
 //! Where a robot must learn its position and heading anew, to stay trusted.
 
 use super::path::{self, Leg};
-use super::walk::Walk;
+use super::walk::{Walk, pieces};
 use crate::lattice::Cell;
 use crate::map::Map;
 use crate::program::{Pose, Program, Robot};
+use std::ops::Range;
 
 /// Where position and heading are to be fixed.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,67 +43,120 @@ impl Fixes {
     /// # Ok::<(), activecell::Error>(())
     /// ```
     pub fn new(map: &Map, robot: &Robot, program: &Program, threshold: f64) -> Self {
+        Self::planned(map, robot, program, threshold, true)
+    }
+
+    /// As [`Fixes::new`]; ways that are alike are looked at once, or each anew.
+    pub(super) fn planned(map: &Map, robot: &Robot, program: &Program, threshold: f64, once: bool) -> Self {
         let mut found = Self { fixes: Vec::new(), not_enough_at: None };
-        let mut walk = Walk::new(map, robot, path::start(map, program));
+        if threshold <= 0.0 {
+            return found;
+        }
+        let pieces = pieces(robot, FORESEEN as f64 * map.frame().cell_m, FORESEEN);
+        let mut walk = Walk::new(map, robot, path::start(map, program), pieces);
         if walk.known().inside < threshold {
             found.not_enough_at = Some(program.start);
             return found;
         }
-        let cells = cells(map, robot, program);
+        let steps = steps(map, robot, program);
         if let Some((_, Some(turn))) =
             path::legs(map, robot, program).next().filter(|(run, _)| run.is_empty())
         {
             walk.drive(turn);
         }
-        // Where the robot is: after so many steps, where a fix was made last.
-        let (mut step, mut fixed) = (0, 0);
-        let mut before: (Cell, Pose) = (program.start, walk.pose());
-        while let Some((legs, cell, turn)) = cells.get(step) {
-            for &leg in legs {
-                walk.drive(leg);
+        let mut from = 0;
+        let mut below = first_below(walk, &steps, threshold);
+        // Ways from a fix to the step before which the next one is needed.
+        let mut ways: Vec<Range<usize>> = Vec::new();
+        while let Some(step) = below {
+            if step == from {
+                found.not_enough_at = Some(steps[step].cell);
+                // A fix that does not help is none.
+                found.fixes.pop();
+                break;
             }
-            if walk.known().inside < threshold {
-                if fixed == step {
-                    found.not_enough_at = Some(*cell);
-                    // A fix that does not help is none.
-                    if found.fixes.last().is_some_and(|fix| fix.step == step) {
-                        found.fixes.pop();
-                    }
-                    return found;
-                }
-                fixed = step;
-                found.fixes.push(Fix { cell: before.0, step });
-                walk = Walk::new(map, robot, before.1);
-                continue;
-            }
-            if let Some(leg) = turn {
-                walk.drive(*leg);
-            }
-            step += 1;
-            before = (*cell, walk.pose());
+            let Step { cell, pose, .. } = steps[step - 1];
+            found.fixes.push(Fix { cell, step });
+            from = step;
+            below = if let Some(way) = ways.iter().find(|way| once && alike(&steps, way, from)) {
+                Some(from + way.len())
+            } else {
+                let next = first_below(Walk::new(map, robot, pose, pieces), &steps[from..], threshold);
+                next.map(|way| {
+                    ways.push(from..from + way);
+                    from + way
+                })
+            };
         }
         found
     }
 }
 
-/// For each step from cell to cell what the robot does, the cell where it then is, and the turn that it makes there.
-/// A turn before the first step is left out.
-fn cells(map: &Map, robot: &Robot, program: &Program) -> Vec<(Vec<Leg>, Cell, Option<Leg>)> {
+/// A robot is reckoned to need a fix after so many steps at the latest; if not, it only takes longer to say.
+const FORESEEN: usize = 100;
+
+/// A step from cell to cell.
+struct Step {
+    /// What the robot does.
+    legs: Vec<Leg>,
+    /// Where it then is.
+    cell: Cell,
+    /// The turn that it makes there.
+    turn: Option<Leg>,
+    /// Its pose after that turn, without any error.
+    pose: Pose,
+}
+
+/// After how many steps the robot is first in its cell with less than this probability.
+fn first_below(mut walk: Walk<'_>, steps: &[Step], threshold: f64) -> Option<usize> {
+    steps.iter().position(|Step { legs, turn, .. }| {
+        for &leg in legs {
+            walk.drive(leg);
+        }
+        let is_below = walk.known().inside < threshold;
+        if let &Some(leg) = turn {
+            walk.drive(leg);
+        }
+        is_below
+    })
+}
+
+/// Whether the robot does from a step on what it did on an earlier way, up to where that needed the next fix. Then
+/// its errors are the same too: all cells are alike.
+fn alike(steps: &[Step], way: &Range<usize>, from: usize) -> bool {
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * (1.0 + a.abs());
+    let same_leg = |a: &Leg, b: &Leg| match (a, b) {
+        (Leg::Run(a), Leg::Run(b)) | (Leg::Turn(a), Leg::Turn(b)) => same(*a, *b),
+        _ => a == b,
+    };
+    let same_legs = |a: &[Leg], b: &[Leg]| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same_leg(a, b));
+    let Some(other) = steps.get(from..=from + way.len()) else { return false };
+    let (before, now) = (steps[way.start - 1].pose, steps[from - 1].pose);
+    same((before.bearing_rad - now.bearing_rad).cos(), 1.0)
+        && steps[way.start..=way.end]
+            .iter()
+            .zip(other)
+            .all(|(a, b)| same_legs(&a.legs, &b.legs) && same_legs(a.turn.as_slice(), b.turn.as_slice()))
+}
+
+/// The program's steps from cell to cell. A turn before the first step is left out.
+fn steps(map: &Map, robot: &Robot, program: &Program) -> Vec<Step> {
     let mut all = Vec::new();
     let lattice = map.lattice();
     let mut cell = program.start;
     let mut pose = path::start(map, program);
     for ((run, turn), waypoint) in path::legs(map, robot, program).zip(&program.waypoints) {
-        let steps = lattice.distance(cell, waypoint.cell);
-        for step in 1..=steps {
+        let count = lattice.distance(cell, waypoint.cell);
+        for step in 1..=count {
             let mut legs: Vec<Leg> = run.clone();
             if let [Leg::Run(length_m), Leg::Stop] = run[..] {
-                let part = Leg::Run(length_m / f64::from(steps));
+                let part = Leg::Run(length_m / f64::from(count));
                 pose = part.from(pose);
-                legs = if step == steps { vec![part, Leg::Stop] } else { vec![part] };
+                legs = if step == count { vec![part, Leg::Stop] } else { vec![part] };
             }
-            cell = if step == steps { waypoint.cell } else { map.cell_at_m(pose.at_m) };
-            all.push((legs, cell, turn.filter(|_| step == steps)));
+            cell = if step == count { waypoint.cell } else { map.cell_at_m(pose.at_m) };
+            let turn = turn.filter(|_| step == count);
+            all.push(Step { legs, cell, turn, pose: turn.map_or(pose, |turn| turn.from(pose)) });
         }
         pose = turn.map_or(pose, |turn| turn.from(pose));
     }

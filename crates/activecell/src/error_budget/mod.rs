@@ -15,13 +15,14 @@ mod trusted;
 mod walk;
 
 pub use fixes::{Fix, Fixes};
+pub use normal::REGION_95;
 pub use trusted::TrustedRoute;
 
 use crate::lattice::Cell;
 use crate::map::{Map, PointM};
 use crate::program::{Program, Robot};
 use normal::{mahalanobis_squared, main_axes};
-use walk::{Known, Walk};
+use walk::{Known, Walk, pieces};
 
 /// How far a robot can be trusted at each waypoint of its program.
 ///
@@ -69,7 +70,7 @@ pub struct Trust {
 pub enum Method {
     /// By formulas.
     ClosedForm,
-    /// By 10,000 robots drawn by chance (fewer if each takes long to draw), always the same, because the errors are
+    /// By 10,000 robots drawn by chance (fewer, 200 at least, if each takes long to drive), always the same, because the errors are
     /// too large for the formulas.
     Sampled,
 }
@@ -114,7 +115,9 @@ impl Certificate {
         program: &Program,
         known: impl Fn(&mut Walk<'a>) -> Known,
     ) -> Self {
-        let mut walk = Walk::new(map, robot, path::start(map, program));
+        let way_m = program.runs_m(map, robot).iter().map(|run_m| run_m.abs()).sum();
+        let pieces = pieces(robot, way_m, program.waypoints.len());
+        let mut walk = Walk::new(map, robot, path::start(map, program), pieces);
         let mut waypoints = Vec::with_capacity(program.waypoints.len());
         for ((run, turn), waypoint) in path::legs(map, robot, program).zip(&program.waypoints) {
             for leg in run {

@@ -6,8 +6,9 @@ use std::f64::consts::{PI, TAU};
 /// A covariance of two coordinates: of the first, of both, of the second.
 pub(super) type Covariance = [[f64; 2]; 2];
 
-/// The squared Mahalanobis distance within which 95 % of a normal distribution of the plane lie: -2 ln 0.05.
-const REGION_95: f64 = 5.991_464_547_107_98;
+/// A point of the plane is within the 95 % region of a normal distribution if the square of its distance from the
+/// centre, measured in standard deviations, is at most this: -2 ln 0.05 (χ² with two degrees of freedom).
+pub const REGION_95: f64 = 5.991_464_547_107_98;
 
 /// The same where all scatter lies on a line: the square of the normal distribution's quantile.
 const REGION_95_OF_A_LINE: f64 = 3.841_458_820_694_12;

@@ -1,10 +1,11 @@
 //! The pieces of the closed form against finite differences, against each other, and against sampling.
 
+use super::fixes::Fixes;
 use super::linear::Linear;
 use super::normal::mahalanobis_squared;
 use super::path::Leg;
 use super::walk::{CROWD, Crowd, HIGHER_ORDERS, Walk};
-use crate::lattice::Lattice;
+use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
 use crate::program::{Drive, Errors, Motion, Pose, Robot, Wheels};
 use crate::rng::Rng;
@@ -106,7 +107,7 @@ fn small_errors_have_the_linear_covariance() {
         let legs = legs(&mut rng);
         let errors = errors(1e-3, &mut rng);
         let robot = Robot { errors, drive: DRIVES[case as usize % 2], ..Robot::default() };
-        let mut walk = Walk::new(&map, &robot, BEGIN);
+        let mut walk = Walk::new(&map, &robot, BEGIN, 1.0);
         for leg in &legs {
             walk.drive(*leg);
         }
@@ -139,14 +140,15 @@ fn the_closed_form_agrees_with_sampling() {
         let legs = legs(&mut rng);
         let errors = errors(1.0, &mut rng);
         let robot = Robot { errors, drive: DRIVES[case as usize / 2 % 2], ..Robot::default() };
-        let mut walk = Walk::new(&map, &robot, BEGIN);
-        let mut crowd = Crowd::new(&robot, BEGIN);
+        let mut walk = Walk::new(&map, &robot, BEGIN, 1.0);
+        let mut crowd = Crowd::new(&robot, BEGIN, 1.0);
         for leg in &legs {
             walk.drive(*leg);
             crowd.drive(*leg);
         }
         let (known, higher) = walk.closed();
-        let sampled = crowd.known(&map, walk.pose());
+        let pose = legs.iter().fold(BEGIN, |pose, leg| leg.from(pose));
+        let sampled = crowd.known(&map, pose);
         let [[xx, xy], [_, yy]] = known.covariance_m2;
         let found = sampled.covariance_m2;
         for (a, b, scale) in
@@ -167,7 +169,7 @@ fn the_closed_form_agrees_with_sampling() {
         held += 1;
         assert!((known.inside - sampled.inside).abs() < 0.03, "{case}: {} {}", known.inside, sampled.inside);
         let mut scatter = Rng::new(case + 1000);
-        let [x, y] = walk.pose().at_m;
+        let [x, y] = pose.at_m;
         let division_m = errors.cell_division_m;
         let [mx, my] = known.offset_m;
         let offsets = crowd.robots.iter().map(|robot| robot.pose.at_m).map(|[rx, ry]| {
@@ -180,4 +182,29 @@ fn the_closed_form_agrees_with_sampling() {
         assert!(xx + yy == 0.0 || (coverage - 0.95).abs() < 0.013, "{case}: {coverage}");
     }
     assert!(held > all / 2 && held < all, "{held} of {all}");
+}
+
+/// Fixes are the same whether ways that are alike are looked at once or each anew.
+#[test]
+fn ways_that_are_alike_need_the_same_fixes() {
+    let (mut fixes, mut helpless) = (0, 0);
+    for case in 0..60 {
+        let mut rng = Rng::new(case);
+        let lattice = Lattice::ALL[case as usize % 2];
+        let map = Map::random(lattice, 60, 9, 0.05, case).unwrap();
+        let mut free = Cell::new(0, 0);
+        map.free().for_each(|cell| free = cell);
+        let field = map.wave(free).unwrap();
+        let Some(from) = map.free().find(|&cell| field.steps(cell).is_some()) else { continue };
+        let errors = errors(2.0, &mut rng);
+        let robot = Robot { errors, drive: DRIVES[case as usize / 2 % 2], ..Robot::default() };
+        let heading = rng.chance(0.5).then(|| lattice.dirs().next().unwrap());
+        let program = field.route(from).program(&robot, &map, heading);
+        let threshold = [0.5, 0.9, 0.99][case as usize % 3];
+        let [once, anew] = [true, false].map(|once| Fixes::planned(&map, &robot, &program, threshold, once));
+        assert_eq!(once, anew, "{case}");
+        fixes += once.fixes.len();
+        helpless += usize::from(once.not_enough_at.is_some());
+    }
+    assert!(fixes > 100 && helpless > 0, "{fixes} {helpless}");
 }

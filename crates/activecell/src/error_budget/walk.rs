@@ -10,8 +10,10 @@ use crate::rng::Rng;
 
 /// Robots in a crowd: with 95 %, the share of them inside a cell is right to 0.01, that in a region to 0.005.
 pub(super) const CROWD: usize = 10_000;
-/// The least there are, for robots that hardly know where they drive.
+/// The least there are, for ways without end and robots that hardly know where they drive.
 const LEAST_CROWD: usize = 200;
+/// The pieces of way that all robots of a crowd drive together, as long as that leaves enough robots: seconds.
+const PIECES: f64 = 3e7;
 /// The crowd's chance is always the same.
 const SEED: u64 = 0xce57;
 
@@ -43,20 +45,17 @@ pub(super) struct Walk<'a> {
     driven: Vec<Leg>,
     linear: Linear,
     moments: Vec<Moments>,
+    /// How many pieces of way it may have to drive.
+    pieces: f64,
     crowd: Option<Crowd<'a>>,
 }
 
 impl<'a> Walk<'a> {
-    /// A robot that begins at a pose, with the errors of a start.
-    pub(super) fn new(map: &'a Map, robot: &'a Robot, begin: Pose) -> Self {
+    /// A robot that begins at a pose, with the errors of a start, on a way of about so many [`pieces`].
+    pub(super) fn new(map: &'a Map, robot: &'a Robot, begin: Pose, pieces: f64) -> Self {
         let moments = every_wheels(robot, begin.bearing_rad);
         let linear = Linear::new(robot);
-        Self { map, robot, begin, pose: begin, driven: Vec::new(), linear, moments, crowd: None }
-    }
-
-    /// The pose without any error.
-    pub(super) const fn pose(&self) -> Pose {
-        self.pose
+        Self { map, robot, begin, pose: begin, driven: Vec::new(), linear, moments, pieces, crowd: None }
     }
 
     pub(super) fn drive(&mut self, leg: Leg) {
@@ -82,7 +81,7 @@ impl<'a> Walk<'a> {
             }
         }
         let crowd = self.crowd.get_or_insert_with(|| {
-            let mut crowd = Crowd::new(self.robot, self.begin);
+            let mut crowd = Crowd::new(self.robot, self.begin, self.pieces);
             self.driven.iter().for_each(|&leg| crowd.drive(leg));
             crowd
         });
@@ -158,17 +157,24 @@ fn corners_m(map: &Map) -> Vec<PointM> {
     map.lattice().corners().iter().map(corner).collect()
 }
 
-/// Fewer robots where each must be driven in many pieces, so that no robot file takes for ever: with the errors of
-/// a real robot a metre is less than one piece.
-fn crowd_size(robot: &Robot) -> usize {
-    if robot.drive == Drive::Steered {
-        return CROWD;
-    }
+/// In how many pieces about a robot drives a way of these runs ([`Motion::roll`]).
+pub(super) fn pieces(robot: &Robot, way_m: f64, runs: usize) -> f64 {
     let errors = &robot.errors;
-    // Curls of the heading a metre: its bend in radians, and its variance.
-    let curls = errors.wheel_difference_rel / robot.track_m
-        + 2.0 * (errors.unevenness_m_per_sqrt_m / robot.track_m).powi(2);
-    ((CROWD as f64 / curls.max(1.0)) as usize).max(LEAST_CROWD)
+    let a_metre = match robot.drive {
+        Drive::Steered => 0.0,
+        Drive::Differential => {
+            let bend_rad = errors.wheel_difference_rel / robot.track_m;
+            let wander = 2.0 * (errors.unevenness_m_per_sqrt_m / robot.track_m).powi(2);
+            (bend_rad / 0.1).max(wander / 0.01)
+        }
+    };
+    way_m * a_metre + runs as f64
+}
+
+/// Fewer robots where each is driven in very many pieces, so that no way and no robot file takes for ever.
+fn crowd_size(pieces: f64) -> usize {
+    let most = PIECES / pieces.max(1.0);
+    (most as usize).clamp(LEAST_CROWD, CROWD)
 }
 
 /// Many robots of one kind on the same way.
@@ -179,9 +185,9 @@ pub(super) struct Crowd<'a> {
 }
 
 impl<'a> Crowd<'a> {
-    pub(super) fn new(robot: &'a Robot, begin: Pose) -> Self {
+    pub(super) fn new(robot: &'a Robot, begin: Pose, pieces: f64) -> Self {
         let mut rng = Rng::new(SEED);
-        let robots = (0..crowd_size(robot)).map(|_| Motion::drawn(robot, begin, &mut rng)).collect();
+        let robots = (0..crowd_size(pieces)).map(|_| Motion::drawn(robot, begin, &mut rng)).collect();
         Self { robots, division_m: robot.errors.cell_division_m, rng }
     }
 
