@@ -33,7 +33,7 @@ impl Certified {
     /// Half the length of the region, and the probability of being inside, at one entry of M.
     pub(super) fn columns(&self, waypoint: usize) -> String {
         self.certificate.waypoints().get(waypoint).map_or_else(String::new, |trust| {
-            format!("{:>8.3} m {:>7.1} %", trust.region().semi_major_m, percent(trust.inside))
+            format!("{:>8.3} m {:>7.1} %", trust.region().semi_major_m, assured(trust.inside))
         })
     }
 
@@ -42,7 +42,7 @@ impl Certified {
         let wanted = percent(self.threshold);
         let mut text = String::new();
         if let Some(worst) = self.certificate.worst() {
-            text += &format!("inside its cell: {:.1} % at worst, at {}", percent(worst.inside), worst.cell);
+            text += &format!("inside its cell: {:.1} % at worst, at {}", assured(worst.inside), worst.cell);
             text += &match self.certificate.first_below(self.threshold) {
                 Some(first) => format!("; first below {wanted} % at {}\n", first.cell),
                 None => format!("; nowhere below {wanted} %\n"),
@@ -67,6 +67,12 @@ impl Certified {
         };
         text
     }
+}
+
+/// A probability in percent, rounded down to a tenth: what is printed is never more than what is certified. (It is right
+/// to 1e-6.)
+fn assured(probability: f64) -> f64 {
+    ((probability + 1e-6) * 1000.0).floor() / 10.0
 }
 
 fn percent(share: f64) -> f64 {
