@@ -2,7 +2,7 @@
 
 use super::complex::{Complex, exp_over_line, exp_over_triangle};
 use super::path::Leg;
-use crate::program::{Drive, Errors, Robot, Wheels};
+use crate::program::{Drive, Errors, Robot, Veering, Wheels};
 
 /// For wheels that are known: mean and covariance of position and heading.
 ///
@@ -89,17 +89,7 @@ impl Moments {
     pub(super) fn drive(&mut self, robot: &Robot, leg: Leg) {
         match leg {
             Leg::Run(length_m) => {
-                let variance_m = robot.errors.unevenness_m_per_sqrt_m.powi(2);
-                let (bend, wander) = match robot.drive {
-                    Drive::Steered => (0.0, 0.0),
-                    Drive::Differential => {
-                        let track_m = robot.track_m * self.wheels.track;
-                        (
-                            self.wheels.difference * self.wheels.perimeter / track_m,
-                            2.0 * variance_m / track_m.powi(2),
-                        )
-                    }
-                };
+                let Veering { bend, wander } = self.wheels.veering(robot);
                 // The power series want less than about one radian at a time.
                 let pieces = (length_m.abs() * (bend.abs() + wander)).ceil().max(1.0);
                 if pieces > MOST_PIECES {

@@ -5,7 +5,7 @@ use super::moments::{Moments, every_wheels};
 use super::normal::{Covariance, mahalanobis_squared, region_95, share_inside};
 use super::path::Leg;
 use crate::map::{Map, PointM};
-use crate::program::{Drive, Motion, Pose, Robot};
+use crate::program::{Motion, Pose, Robot, Wheels};
 use crate::rng::Rng;
 
 /// Robots in a crowd: with 95 %, the share of them inside a cell is right to 0.01, that in a region to 0.005.
@@ -159,16 +159,8 @@ fn corners_m(map: &Map) -> Vec<PointM> {
 
 /// In how many pieces about a robot drives a way of these runs ([`Motion::roll`]).
 pub(super) fn pieces(robot: &Robot, way_m: f64, runs: usize) -> f64 {
-    let errors = &robot.errors;
-    let a_metre = match robot.drive {
-        Drive::Steered => 0.0,
-        Drive::Differential => {
-            let bend_rad = errors.wheel_difference_rel / robot.track_m;
-            let wander = 2.0 * (errors.unevenness_m_per_sqrt_m / robot.track_m).powi(2);
-            (bend_rad / 0.1).max(wander / 0.01)
-        }
-    };
-    way_m * a_metre + runs as f64
+    let wheels = Wheels { difference: robot.errors.wheel_difference_rel, ..Wheels::NOMINAL };
+    way_m * wheels.veering(robot).pieces_a_metre() + runs as f64
 }
 
 /// Fewer robots where each is driven in very many pieces, so that no way and no robot file takes for ever.

@@ -7,6 +7,7 @@ mod robot;
 mod slopes;
 
 pub use drive::{Effort, Ticks};
+pub(crate) use motion::Veering;
 pub use motion::{Motion, Pose, Wheels};
 pub use replay::{ProgramFault, check_program, replay};
 pub use robot::{Drive, Errors, Power, Robot, Sensors, Slopes};

@@ -49,6 +49,34 @@ impl Wheels {
     }
 }
 
+/// What a run does to the heading of a robot with these wheels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Veering {
+    /// The turn that the wheels' difference makes, in radians a metre.
+    pub(crate) bend: f64,
+    /// The variance that the floor adds, in square radians a metre.
+    pub(crate) wander: f64,
+}
+
+impl Wheels {
+    /// What a run does to the heading.
+    pub(crate) fn veering(&self, robot: &Robot) -> Veering {
+        if robot.drive == Drive::Steered {
+            return Veering { bend: 0.0, wander: 0.0 };
+        }
+        let track_m = robot.track_m * self.track;
+        let wander = 2.0 * (robot.errors.unevenness_m_per_sqrt_m / track_m).powi(2);
+        Veering { bend: self.difference * self.perimeter / track_m, wander }
+    }
+}
+
+impl Veering {
+    /// In how many pieces a metre is driven, so that the heading changes little in each.
+    pub(crate) fn pieces_a_metre(self) -> f64 {
+        (self.bend.abs() / PIECE_RAD).max(self.wander / PIECE_RAD.powi(2))
+    }
+}
+
 /// The heading wanders by less than this in one piece of a run: about 6°.
 const PIECE_RAD: f64 = 0.1;
 /// A run is driven in this many pieces at the most.
@@ -105,16 +133,9 @@ impl<'a> Motion<'a> {
     /// in law.
     pub fn roll(&mut self, length_m: f64, rng: &mut Rng) {
         let variance_m = self.robot.errors.unevenness_m_per_sqrt_m.powi(2); // a metre
-        let (bend, wander) = match self.robot.drive {
-            Drive::Steered => (0.0, 0.0),
-            Drive::Differential => {
-                let track_m = self.robot.track_m * self.wheels.track;
-                (self.wheels.difference * self.wheels.perimeter / track_m, 2.0 * variance_m / track_m.powi(2))
-            }
-        };
-        let way_m = length_m.abs();
-        let pieces =
-            (way_m * (bend.abs() / PIECE_RAD).max(wander / PIECE_RAD.powi(2))).ceil().clamp(1.0, MAX_PIECES);
+        let veering = self.wheels.veering(self.robot);
+        let Veering { bend, wander } = veering;
+        let pieces = (length_m.abs() * veering.pieces_a_metre()).ceil().clamp(1.0, MAX_PIECES);
         let piece_m = length_m / pieces;
         for _ in 0..pieces as u32 {
             let size_m = piece_m.abs();
