@@ -58,6 +58,7 @@ docs: $(ACTIVECELL)
 	cargo run -q -p activecell-picture --example prediction > docs/pictures/prediction.svg
 	$(ACTIVECELL) calibrate logs/monday logs/tuesday logs/friday --robot logs/robot.toml --picture docs/pictures/calibration.svg > /dev/null
 	$(ACTIVECELL) simulate maps/office-run.json --trials 4000 --picture docs/pictures/simulate-offline.png -q > /dev/null
+	$(ACTIVECELL) simulate maps/office-run.json --mode task --robot maps/quick.toml --movers 6 --mover-speed 0.25 --seed 4 --picture docs/pictures/simulate-movers.gif -q > /dev/null
 	$(ACTIVECELL) simulate maps/office-run.json --mode task --missing 0.1 --seed 3 --picture docs/pictures/simulate-task.png --picture docs/pictures/simulate-task.gif -q > /dev/null
 
 bench:

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::run::{MapRows, VERSION};
-use activecell::sim::{Trace, World};
+use activecell::sim::{Sighting, Trace, World};
 use activecell::{Cell, Map, PointM, Pose};
 use serde::Serialize;
 
@@ -91,8 +91,28 @@ pub struct TaskReport {
     pub touched: f64,
     /// How often something was touched, in all trials.
     pub contacts: u64,
+    /// What moving objects did; left out without `--movers`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub movers: Option<MoversReport>,
     /// Obstacles found in the first trial that the map does not have, as [x, y].
     pub found: Vec<[i32; 2]>,
+}
+
+/// What moving objects did to the robot, in all trials.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MoversReport {
+    /// The time for which it waited for them, trial by trial.
+    pub waited_s: Distribution,
+    /// Slots with a plan past them.
+    pub slots: u64,
+    /// Slots in which whatever it did one could have touched it.
+    pub slots_without_a_safe_step: u64,
+    /// Objects first seen when they could already reach it within a slot.
+    pub seen_too_late: u64,
+    /// Times that the driving robot touched one.
+    pub contacts_driving: u64,
+    /// Times that one ran into the standing robot.
+    pub contacts_standing: u64,
 }
 
 #[derive(Serialize)]
@@ -142,6 +162,27 @@ struct TickFile {
     aim: [i32; 2],
     closed: Vec<[i32; 2]>,
     opened: Vec<[i32; 2]>,
+    objects: Vec<ObjectFile>,
+    /// Where a slot was planned past them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    foreseen: Option<ForeseenFile>,
+}
+
+#[derive(Serialize)]
+struct ObjectFile {
+    number: u32,
+    seen_s: f64,
+    at_m: PointM,
+    /// Where it is likely to be a slot later: the mean, and one standard deviation along each axis.
+    then_m: PointM,
+    then_std_m: f64,
+}
+
+#[derive(Serialize)]
+struct ForeseenFile {
+    safe_slots: usize,
+    waits: bool,
+    closed: Vec<[i32; 2]>,
 }
 
 #[derive(Serialize)]
@@ -149,6 +190,13 @@ struct ContactFile {
     time_s: f64,
     at_m: PointM,
     mover: Option<usize>,
+    driving: bool,
+    promised: bool,
+}
+
+fn object(seen: &Sighting) -> ObjectFile {
+    let Sighting { number, at_m, seen_s, then } = *seen;
+    ObjectFile { number, seen_s, at_m, then_m: then.at_m, then_std_m: then.std_m }
 }
 
 fn pair(cell: Cell) -> [i32; 2] {
@@ -222,10 +270,22 @@ impl Stage<'_> {
                 aim: pair(tick.aim),
                 closed: cells(true),
                 opened: cells(false),
+                objects: tick.objects.iter().map(object).collect(),
+                foreseen: tick.foreseen.as_ref().map(|foreseen| ForeseenFile {
+                    safe_slots: foreseen.safe_slots,
+                    waits: foreseen.waits,
+                    closed: foreseen.closed.iter().copied().map(pair).collect(),
+                }),
             }
         });
         let contacts = trace.contacts.iter();
-        let contacts = contacts.map(|c| ContactFile { time_s: c.time_s, at_m: c.at_m, mover: c.mover });
+        let contacts = contacts.map(|c| ContactFile {
+            time_s: c.time_s,
+            at_m: c.at_m,
+            mover: c.mover,
+            driving: c.driving,
+            promised: c.promised,
+        });
         let body =
             TaskBody { ending: trace.ending.name(), ticks: ticks.collect(), contacts: contacts.collect() };
         self.file(report, body)

@@ -1,8 +1,8 @@
 //! The footer: scale bar and legend, in as many rows as they need.
 
 use crate::colour::{
-    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, ORANGE_RIM, PURPLE, PURPLE_TINT, TEXT,
-    VERMILLION, YELLOW,
+    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE, PURPLE_TINT,
+    TEXT, VERMILLION, YELLOW,
 };
 use crate::font;
 use crate::layout::{Layout, round_length};
@@ -33,6 +33,8 @@ pub(crate) enum Key {
     Contact,
     Found,
     Beam,
+    Mover,
+    Expected,
 }
 
 /// Swatches of the wave's colours.
@@ -58,6 +60,8 @@ impl Key {
             Self::Contact => "contact",
             Self::Found => "found obstacle",
             Self::Beam => "beams",
+            Self::Mover => "walker",
+            Self::Expected => "expected there",
             Self::Height => return heights(map),
         };
         label.to_owned()
@@ -131,6 +135,11 @@ impl Key {
                 }
             }
             Self::Contact => simulation::contact(shapes, middle, 0.36 * size),
+            Self::Mover | Self::Expected => {
+                let pale = matches!(self, Self::Expected);
+                let fill = if pale { ORANGE.mix(PAGE, 0.6) } else { PURPLE };
+                shapes.push(Shape::Disc { centre: middle, radius: 0.42 * size, fill, line: None });
+            }
             Self::Found => {
                 let side = 0.95 * size;
                 let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);

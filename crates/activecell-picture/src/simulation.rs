@@ -204,6 +204,10 @@ pub struct Moment<'a> {
     pub readings_m: &'a [f64],
     /// The cells that closed (`true`) and opened for it since the moment before.
     pub changes: &'a [Change],
+    /// Discs that move: where they are, and their radii.
+    pub movers: &'a [(PointM, f64)],
+    /// Where the robot expects them: middle and radius.
+    pub forecasts: &'a [(PointM, f64)],
 }
 
 /// A drive, to be shown moving.
@@ -230,6 +234,8 @@ pub fn simulation_gif(picture: &MovingPicture<'_>) -> Result<Vec<u8>, Error> {
     let mut keys = vec![Key::Start, Key::Target, Key::Planned, Key::Driven];
     keys.extend(picture.moments.iter().any(|moment| !moment.readings_m.is_empty()).then_some(Key::Beam));
     keys.extend(picture.moments.iter().any(|moment| !moment.changes.is_empty()).then_some(Key::Found));
+    keys.extend(picture.moments.iter().any(|moment| !moment.movers.is_empty()).then_some(Key::Mover));
+    keys.extend(picture.moments.iter().any(|moment| !moment.forecasts.is_empty()).then_some(Key::Expected));
     keys.extend(figure.keys());
     let mut page = figure.page(&keys, None);
     page.shapes.push(figure.floor());
@@ -250,6 +256,7 @@ pub fn simulation_gif(picture: &MovingPicture<'_>) -> Result<Vec<u8>, Error> {
             continue;
         }
         let mut shapes = found(layout, &closed);
+        shapes.extend(movers(layout, still.world, moment));
         shapes.extend(track(layout, still.world, &way, VERMILLION));
         shapes.push(beams(layout, still.world, moment, picture.sensors));
         let radius = (picture.radius_m / still.world.frame().cell_m * layout.cell).max(4.0);
@@ -272,6 +279,20 @@ fn follow(closed: &mut Vec<Cell>, moment: &Moment<'_>) {
             closed.push(cell);
         }
     }
+}
+
+/// Where movers are expected, pale, and where they are.
+fn movers(layout: &Layout, map: &Map, moment: &Moment<'_>) -> Vec<Shape> {
+    let disc = |&(at_m, radius_m): &(PointM, f64), fill: Rgb, line: Option<Line>| Shape::Disc {
+        centre: layout.floor_point(map, at_m),
+        radius: radius_m / map.frame().cell_m * layout.cell,
+        fill,
+        line,
+    };
+    let pale = ORANGE.mix(PAGE, 0.6);
+    let expected = moment.forecasts.iter().map(|place| disc(place, pale, None));
+    let there = moment.movers.iter().map(|place| disc(place, PURPLE, Some(Line::new(PAGE, 1.2))));
+    expected.chain(there).collect()
 }
 
 fn beams(layout: &Layout, map: &Map, moment: &Moment<'_>, sensors: &Sensors) -> Shape {

@@ -271,7 +271,7 @@ fn discs_that_move_are_seen_and_their_touch_is_counted() {
     let start =
         |cell: Cell, bearing_rad: f64| Pose { at_m: map.centre_m(cell), bearing_rad: bearing_rad + 0.3 };
     let mover = |start: Pose, speed_mps: f64| {
-        let legs = vec![Leg { duration_s: 1000.0, speed_mps, turn_rate_radps: 0.0 }];
+        let legs = vec![Leg { duration_s: 1000.0, speed_mps, accel_mps2: 0.0, turn_rate_radps: 0.0 }];
         Mover { radius_m: 0.2, start, legs }
     };
     // It stands in the way: the robot goes round it.

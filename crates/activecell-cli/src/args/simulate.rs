@@ -16,6 +16,7 @@ use std::str::FromStr;
 Examples (maps/office-run.json is what `activecell route maps/office.yaml … --save` wrote):
   activecell simulate maps/office-run.json --trials 1000
   activecell simulate maps/office-run.json --mode task --missing 0.1 --picture way.svg --picture way.gif
+  activecell simulate maps/office-run.json --mode task --robot maps/quick.toml --movers 3 --picture way.gif
   activecell simulate maps/office-run.json --mode task --appear 7,13@10..40 --save trace.json")]
 pub(crate) struct SimulateArgs {
     /// A file of `route --save`
@@ -45,6 +46,12 @@ pub(crate) struct SimulateArgs {
     /// An obstacle that stands in a cell from one second to another; can be given more than once
     #[arg(long, value_name = "X,Y@FROM..TO")]
     pub(crate) appear: Vec<Appear>,
+    /// So many walkers go about by chance on the free cells, and the robot plans past them (with --mode task)
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=100))]
+    pub(crate) movers: u32,
+    /// No walker is faster
+    #[arg(long, value_name = "MPS", default_value_t = 0.3, allow_negative_numbers = true, value_parser = mover_speed)]
+    pub(crate) mover_speed: f64,
     /// Write what the first trial did, and where every trial ended
     #[arg(long, value_name = "TRACE.json")]
     pub(crate) save: Option<PathBuf>,
@@ -67,6 +74,10 @@ pub(crate) enum ModeArg {
 
 fn missing(text: &str) -> Result<f64, String> {
     super::number(text, 0.0, 0.9)
+}
+
+fn mover_speed(text: &str) -> Result<f64, String> {
+    super::number(text, 0.01, 10.0)
 }
 
 /// An obstacle for a while, as a user writes it.

@@ -1,12 +1,12 @@
 //! A robot that makes a new plan each slot.
 
 use super::closures::Closures;
-use super::plan::Plan;
+use super::plan::{Facing, Plan};
 use super::track::Track;
 use super::window::FARTHEST;
 use super::within;
 use crate::error::Error;
-use crate::lattice::Cell;
+use crate::lattice::{Cell, Dir};
 use crate::map::Map;
 use crate::wave::LiveField;
 use std::collections::{BTreeMap, BTreeSet};
@@ -139,12 +139,43 @@ impl Avoider {
         &self.map
     }
 
+    /// Whether the last plan's closures close a cell to stand in (no direction) or a side to cross, in a slot counted
+    /// from that plan's begin.
+    pub fn is_closed(&self, slot: usize, cell: Cell, way: Option<Dir>) -> bool {
+        self.closed.values().any(|(_, closures)| closures.is_closed(slot, cell, way))
+    }
+
     /// The plan for a robot in `cell` at `time_s`, when a slot begins. `tracks` holds the objects by numbers that stay
     /// theirs.
     ///
     /// # Errors
     /// [`Error::BadValue`] for a time beyond 10⁹ s; [`Error::OutsideMap`] or [`Error::StartOccupied`] for the cell.
     pub fn plan(&mut self, tracks: &BTreeMap<u32, Track>, cell: Cell, time_s: f64) -> Result<Plan, Error> {
+        self.plan_as(tracks, cell, None, time_s)
+    }
+
+    /// The plan for a robot that cannot turn and drive within one slot. Its slots are shorter: in each it drives on in
+    /// the direction in which it faces (or back), or turns on the spot, as [`Plan::turn`] says.
+    ///
+    /// # Errors
+    /// As [`Avoider::plan`].
+    pub fn plan_facing(
+        &mut self,
+        tracks: &BTreeMap<u32, Track>,
+        cell: Cell,
+        facing: Facing,
+        time_s: f64,
+    ) -> Result<Plan, Error> {
+        self.plan_as(tracks, cell, Some(facing), time_s)
+    }
+
+    fn plan_as(
+        &mut self,
+        tracks: &BTreeMap<u32, Track>,
+        cell: Cell,
+        facing: Option<Facing>,
+        time_s: f64,
+    ) -> Result<Plan, Error> {
         self.map.check_task(cell, cell)?;
         self.go_round_parked(tracks, cell, time_s);
         let slots = self.bolder(cell);
@@ -163,7 +194,7 @@ impl Avoider {
             closed.insert(name, (track.breaks(), own));
         }
         self.closed = closed;
-        Ok(all.plan(cell, |cell| self.field.steps(cell)))
+        Ok(all.plan_facing(cell, facing, |cell| self.field.steps(cell)))
     }
 
     /// How far to look ahead after long waiting: a robot that must be safe from all that could happen in many slots never
@@ -171,13 +202,18 @@ impl Avoider {
     fn bolder(&mut self, cell: Cell) -> Slots {
         let steps = self.field.steps(cell).unwrap_or(u32::MAX);
         let patience = u32::from(self.slots.patience.max(1));
-        if steps < self.nearest {
+        if self.nearest == u32::MAX {
+            // The field changed: what it had gained before is not known any more.
+            self.nearest = steps;
+            self.stuck += 1;
+        } else if steps < self.nearest {
             self.nearest = steps;
             // Boldness goes slowly, or it would turn back halfway.
             self.stuck = self.stuck.saturating_sub(2);
         } else {
-            self.stuck = (self.stuck + 1).min(patience * u32::from(self.slots.certain));
+            self.stuck += 1;
         }
+        self.stuck = self.stuck.min(patience * u32::from(self.slots.certain));
         let less = ((self.stuck / patience) as u8).min(self.slots.certain - 1);
         let (certain, likely) = (self.slots.certain - less, self.slots.likely + less);
         Slots { certain, likely, ..self.slots }

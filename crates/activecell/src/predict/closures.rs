@@ -174,15 +174,12 @@ impl Closures {
     }
 }
 
-/// Where the object's disc is likely to be in a slot. `None` if it was never seen, and after the certain slots where
-/// the guess is so wide that it would close half the floor.
+/// Where the object's disc is likely to be in a slot; `None` if it was never seen. After the certain slots no wider than
+/// a guess: it would close half the floor.
 fn likely(track: &Track, from_s: f64, to_s: f64, certain: bool) -> Option<Capsule> {
     let (begin, end) = (track.forecast(from_s)?, track.forecast(to_s)?);
     let likely_m = begin.radius_m(LIKELY).max(end.radius_m(LIKELY));
     let vague_m = 2.0 * track.bounds().radius_m + 0.5 * track.bounds().max_speed_mps * (to_s - from_s);
-    (certain || likely_m <= vague_m).then_some(Capsule {
-        from_m: begin.at_m,
-        to_m: end.at_m,
-        radius_m: track.bounds().radius_m + likely_m,
-    })
+    let likely_m = if certain { likely_m } else { likely_m.min(vague_m) };
+    Some(Capsule { from_m: begin.at_m, to_m: end.at_m, radius_m: track.bounds().radius_m + likely_m })
 }

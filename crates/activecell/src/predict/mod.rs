@@ -20,7 +20,7 @@ pub use avoid::{Avoider, Slots};
 pub use capsule::Capsule;
 pub use closures::Closures;
 pub use contact::{Contact, first_contact};
-pub use plan::{Plan, Step};
+pub use plan::{Facing, Plan, Step};
 pub use track::{Bounds, Track};
 pub use turning::{Forecast, Turning};
 

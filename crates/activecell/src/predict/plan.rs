@@ -15,11 +15,36 @@ pub enum Step {
     NoSafeStep,
 }
 
+/// How a robot stands that cannot turn and drive within one slot: it turns on the spot in a slot of its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Facing {
+    /// Where it faces.
+    pub dir: Dir,
+    /// Whether it can also drive backwards.
+    pub reverses: bool,
+}
+
+impl Facing {
+    /// The ways that lead on from a heading; without headings all do.
+    fn ways(facing: Option<Self>, lattice: Lattice, heading: usize) -> impl Iterator<Item = Dir> {
+        lattice.dirs().filter(move |&dir| {
+            facing.is_none_or(|facing| {
+                let back = facing.reverses && lattice.opposite(dir).index() == heading;
+                dir.index() == heading || back
+            })
+        })
+    }
+}
+
+/// The cells of a slot, for each heading; one plane alone where headings do not matter.
+type Layer = Vec<Rows>;
+
 /// Where the robot is at the begin of each slot.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Plan {
     lattice: Lattice,
     cells: Vec<Cell>,
+    turn: Option<Dir>,
     sure: usize,
     certain: usize,
     arrival_slots: Option<u32>,
@@ -46,6 +71,12 @@ impl Plan {
     /// leads to the target.
     pub const fn arrival_slots(&self) -> Option<u32> {
         self.arrival_slots
+    }
+
+    /// Where to face at the first slot's end, for a robot that turns in a slot of its own
+    /// ([`Avoider::plan_facing`](super::Avoider::plan_facing)); `None` for others.
+    pub const fn turn(&self) -> Option<Dir> {
+        self.turn
     }
 
     /// What to do in the first slot.
@@ -83,13 +114,27 @@ impl Closures {
     /// # Ok::<(), activecell::Error>(())
     /// ```
     pub fn plan(&self, cell: Cell, steps_to_go: impl Fn(Cell) -> Option<u32>) -> Plan {
+        self.plan_facing(cell, None, steps_to_go)
+    }
+
+    /// The same for a robot that turns in a slot of its own: the wave spreads over cells and headings.
+    pub fn plan_facing(
+        &self,
+        cell: Cell,
+        facing: Option<Facing>,
+        steps_to_go: impl Fn(Cell) -> Option<u32>,
+    ) -> Plan {
         let to_go = |cell: Cell| steps_to_go(cell).unwrap_or(u32::MAX);
-        let mut reached = vec![both(&self.window.only(cell), &self.free)];
+        let headings = facing.map_or(1, |_| usize::from(self.window.lattice.degree()));
+        let heading = facing.map_or(0, |facing| facing.dir.index());
+        let mut start = vec![self.window.empty(); headings];
+        start[heading] = both(&self.window.only(cell), &self.free);
+        let mut reached = vec![start];
         let mut sure = self.reach.len();
         while reached.len() <= self.slots() {
             let slot = reached.len() - 1;
-            let next = self.onward(self.planes(slot, sure), &reached[slot]);
-            if next.iter().any(|&row| row != 0) {
+            let next = self.onward(self.planes(slot, sure), facing, &reached[slot]);
+            if next.iter().flatten().any(|&row| row != 0) {
                 reached.push(next);
             } else if slot < sure {
                 sure = slot;
@@ -100,22 +145,26 @@ impl Closures {
         let last = reached.len() - 1;
         // Only what leads on to the end.
         for slot in (0..last).rev() {
-            reached[slot] = both(&reached[slot], &self.back(self.planes(slot, sure), &reached[slot + 1]));
+            reached[slot] = self.leading(slot, sure, facing, &reached[slot], &reached[slot + 1]);
         }
-        let arrives = |slot: &usize| self.window.cells(&reached[*slot]).any(|cell| to_go(cell) == 0);
+        let cells = |slot: usize| reached[slot].iter().flat_map(|rows| self.window.cells(rows));
+        let arrives = |slot: &usize| cells(*slot).any(|cell| to_go(cell) == 0);
         let arrival = (0..=last).find(arrives);
         let until = arrival.unwrap_or(last);
-        let rest = self.window.cells(&reached[until]).map(to_go).min().unwrap_or(u32::MAX);
-        let mut good = vec![self.cells_where(&reached[until], |cell| to_go(cell) == rest)];
+        let rest = cells(until).map(to_go).min().unwrap_or(u32::MAX);
+        let nearest = reached[until].iter().map(|rows| self.cells_where(rows, |cell| to_go(cell) == rest));
+        let mut good: Vec<Layer> = vec![nearest.collect()];
         for slot in (0..until).rev() {
-            let before = both(&reached[slot], &self.back(self.planes(slot, sure), &good[good.len() - 1]));
-            good.push(before);
+            good.push(self.leading(slot, sure, facing, &reached[slot], &good[good.len() - 1]));
         }
         good.reverse();
         good.extend(reached.drain(until + 1..));
+        let states = self.follow((cell, heading), facing, &good, sure, to_go);
+        let turn = facing.and_then(|_| states.get(1)).map(|&(_, heading)| Dir(heading as u8));
         Plan {
             lattice: self.window.lattice,
-            cells: self.follow(cell, &good, sure, to_go),
+            cells: states.into_iter().map(|(cell, _)| cell).collect(),
+            turn,
             sure,
             certain: self.reach.len(),
             arrival_slots: (rest != u32::MAX).then(|| rest.saturating_add(until as u32)),
@@ -130,41 +179,78 @@ impl Closures {
         found
     }
 
-    /// Through cells that are all good: nearer to the target first, then rather waiting than moving.
-    fn follow(&self, start: Cell, good: &[Rows], sure: usize, to_go: impl Fn(Cell) -> u32) -> Vec<Cell> {
+    /// Through cells that are all good: nearer to the target first, then rather waiting than moving, and rather facing
+    /// as before.
+    fn follow(
+        &self,
+        start: (Cell, usize),
+        facing: Option<Facing>,
+        good: &[Layer],
+        sure: usize,
+        to_go: impl Fn(Cell) -> u32,
+    ) -> Vec<(Cell, usize)> {
         let lattice = self.window.lattice;
-        let mut cells = vec![start];
-        let mut here = start;
+        let mut states = vec![start];
+        let (mut here, mut heading) = start;
         for (slot, good) in good.iter().skip(1).enumerate() {
-            let ways = std::iter::once(None).chain(lattice.dirs().map(Some));
-            let next = ways
-                .filter(|&way| !self.has(self.planes(slot, sure), here, way))
-                .map(|way| way.map_or(here, |dir| lattice.neighbour(here, dir)))
-                .filter(|&next| self.window.has(good, next))
-                .min_by_key(|&next| to_go(next));
+            let closed = self.planes(slot, sure);
+            let turned = std::iter::once(heading).chain(0..good.len());
+            let stays = turned.map(|heading| (None, here, heading));
+            let ways = Facing::ways(facing, lattice, heading);
+            let goes = ways.map(|dir| (Some(dir), lattice.neighbour(here, dir), heading));
+            let next = stays
+                .chain(goes)
+                .filter(|&(way, ..)| !self.has(closed, here, way))
+                .filter(|&(_, next, heading)| self.window.has(&good[heading], next))
+                .min_by_key(|&(_, next, _)| to_go(next));
             let Some(next) = next else { break };
-            cells.push(next);
-            here = next;
+            (_, here, heading) = next;
+            states.push((here, heading));
         }
-        cells
+        states
     }
 
-    /// Where a robot in one of these cells can be after a slot.
-    fn onward(&self, closed: &Planes, cells: &[u64]) -> Rows {
-        let mut next = without(cells, &closed[closed.len() - 1]);
-        for dir in self.window.lattice.dirs() {
-            add(&mut next, &self.window.moved(&without(cells, &closed[dir.index()]), dir));
-        }
-        both(&next, &self.free)
+    /// Where a robot in one of these cells can be after a slot: in a neighbour, or in its cell, whatever it faces then.
+    fn onward(&self, closed: &Planes, facing: Option<Facing>, layer: &Layer) -> Layer {
+        let stay = self.staying(closed, layer);
+        let next = layer.iter().enumerate().map(|(heading, cells)| {
+            let mut next = stay.clone();
+            for dir in Facing::ways(facing, self.window.lattice, heading) {
+                add(&mut next, &self.window.moved(&without(cells, &closed[dir.index()]), dir));
+            }
+            both(&next, &self.free)
+        });
+        next.collect()
     }
 
-    /// Where a robot can be that is in one of these cells after a slot.
-    fn back(&self, closed: &Planes, cells: &[u64]) -> Rows {
-        let mut before = without(cells, &closed[closed.len() - 1]);
-        for dir in self.window.lattice.dirs() {
-            let from = self.window.moved(cells, self.window.lattice.opposite(dir));
-            add(&mut before, &without(&from, &closed[dir.index()]));
+    /// Those of a slot's cells from which one of the next slot's can be reached.
+    fn leading(
+        &self,
+        slot: usize,
+        sure: usize,
+        facing: Option<Facing>,
+        layer: &Layer,
+        next: &Layer,
+    ) -> Layer {
+        let closed = self.planes(slot, sure);
+        let stay = self.staying(closed, next);
+        let led = layer.iter().zip(next).enumerate().map(|(heading, (cells, next))| {
+            let mut before = stay.clone();
+            for dir in Facing::ways(facing, self.window.lattice, heading) {
+                let from = self.window.moved(next, self.window.lattice.opposite(dir));
+                add(&mut before, &without(&from, &closed[dir.index()]));
+            }
+            both(cells, &before)
+        });
+        led.collect()
+    }
+
+    /// The cells of any heading in which the robot can stand.
+    fn staying(&self, closed: &Planes, layer: &Layer) -> Rows {
+        let mut all = self.window.empty();
+        for cells in layer {
+            add(&mut all, cells);
         }
-        before
+        without(&all, &closed[closed.len() - 1])
     }
 }

@@ -44,6 +44,8 @@ impl Bounds {
 struct Seen {
     time_s: f64,
     at_m: PointM,
+    /// How far the true one is at the most.
+    within_m: f64,
 }
 
 /// How many older positions are kept.
@@ -121,12 +123,27 @@ impl Track {
         self.last.map(|last| last.time_s)
     }
 
-    /// Takes in a position; says whether it agrees with the bounds. If not, the object or the sensor has left them:
-    /// what was known before is dropped, and the track begins anew.
+    /// Where it was last seen.
+    pub fn seen_m(&self) -> Option<PointM> {
+        self.last.map(|last| last.at_m)
+    }
+
+    /// Takes in a position seen as well as the bounds say; says whether it agrees with them. If not, the object or the
+    /// sensor has left them: what was known before is dropped, and the track begins anew.
     ///
     /// # Errors
     /// [`Error::BadValue`] for a time less than a microsecond after the last one, and for numbers beyond 10⁹.
     pub fn observe(&mut self, time_s: f64, at_m: PointM) -> Result<bool, Error> {
+        self.observe_within(time_s, at_m, self.bounds.seen_within_m)
+    }
+
+    /// The same with a position that is better or worse known than others: `within_m` instead of
+    /// [`Bounds::seen_within_m`].
+    ///
+    /// # Errors
+    /// As [`Track::observe`], and for a `within_m` that is negative or beyond a million.
+    pub fn observe_within(&mut self, time_s: f64, at_m: PointM, within_m: f64) -> Result<bool, Error> {
+        within("the deviation of a position seen, in metres", within_m, 0.0, 1e6, "from 0 to 1000000")?;
         for value in at_m {
             within("a position seen, in metres", value, -1e9, 1e9, "a number of at most a thousand million")?;
         }
@@ -138,12 +155,12 @@ impl Track {
             1e9,
             "later than the last, up to 10⁹",
         )?;
-        let keeps = self.may_be_seen_at(time_s, at_m);
+        let keeps = self.may_be_seen_at(time_s, at_m, within_m);
         if !keeps {
             self.breaks += 1;
             *self = Self { breaks: self.breaks, ..Self::new(self.bounds)? };
         }
-        let seen = Seen { time_s, at_m };
+        let seen = Seen { time_s, at_m, within_m };
         if let Some(last) = self.last.replace(seen) {
             let apart_s = (4.0 * self.bounds.seen_within_m / self.bounds.max_accel_mps2).sqrt() / 4.0;
             // Without acceleration all times are equally good, so the first position serves for ever.
@@ -154,7 +171,7 @@ impl Track {
                 self.anchors.push(last);
             }
         }
-        let stays = |rest: &Seen| distance(rest.at_m, at_m) <= 2.0 * self.bounds.seen_within_m + 0.01;
+        let stays = |rest: &Seen| distance(rest.at_m, at_m) <= rest.within_m + within_m + 0.01;
         self.rest = self.rest.filter(stays).or(Some(seen));
         self.filter.observe(time_s, at_m);
         Ok(keeps)
@@ -193,17 +210,17 @@ impl Track {
         self.filter.forecast(time_s)
     }
 
-    fn may_be_seen_at(&self, time_s: f64, at_m: PointM) -> bool {
-        let seen = Capsule { from_m: at_m, to_m: at_m, radius_m: self.bounds.seen_within_m };
+    fn may_be_seen_at(&self, time_s: f64, at_m: PointM, within_m: f64) -> bool {
+        let seen = Capsule { from_m: at_m, to_m: at_m, radius_m: within_m };
         self.centres(time_s, time_s).iter().all(|capsule| capsule.gap_m(&seen) <= 1e-9)
     }
 
     /// What [`Track::reach`] says, of the centre alone.
     fn centres(&self, from_s: f64, to_s: f64) -> Vec<Capsule> {
         let Some(last) = self.last else { return Vec::new() };
-        let Bounds { max_speed_mps, max_accel_mps2, seen_within_m, .. } = self.bounds;
+        let Bounds { max_speed_mps, max_accel_mps2, .. } = self.bounds;
         let (begin_s, end_s) = ((from_s - last.time_s).max(0.0), (to_s - last.time_s).max(0.0));
-        let around = seen_within_m + max_speed_mps * end_s;
+        let around = last.within_m + max_speed_mps * end_s;
         let mut centres = vec![Capsule { from_m: last.at_m, to_m: last.at_m, radius_m: around }];
         for anchor in &self.anchors {
             let base_s = last.time_s - anchor.time_s;
@@ -213,7 +230,8 @@ impl Track {
             centres.push(Capsule {
                 from_m: ahead(begin_s),
                 to_m: ahead(end_s),
-                radius_m: seen_within_m * (1.0 + 2.0 * end_s / base_s)
+                radius_m: last.within_m
+                    + (last.within_m + anchor.within_m) * end_s / base_s
                     + 0.5 * max_accel_mps2 * end_s * (end_s + base_s),
             });
         }

@@ -140,7 +140,7 @@ impl Estimate {
     }
 
     /// How far aside of where it is thought a beam may be after so much way, one standard deviation.
-    pub(super) fn aside_m(&self, way_m: f64) -> f64 {
+    pub(crate) fn aside_m(&self, way_m: f64) -> f64 {
         self.spread_m().hypot(way_m * self.spread_rad())
     }
 

@@ -15,7 +15,7 @@ pub use belief::{Belief, Change};
 pub use estimate::Estimate;
 pub use ray::{Crossing, Ray};
 
-use crate::program::{Pose, Sensors};
+use crate::program::{Pose, Robot, Sensors};
 use crate::rng::Rng;
 use std::f64::consts::TAU;
 
@@ -25,6 +25,13 @@ impl Sensors {
     pub fn bearings_rad(&self, bearing_rad: f64) -> impl Iterator<Item = f64> {
         let beams = f64::from(self.beams);
         (0..self.beams).map(move |beam| bearing_rad + TAU * f64::from(beam) / beams)
+    }
+}
+
+impl Robot {
+    /// Whether it can drive backwards and one of its beams looks there.
+    pub(crate) fn sees_behind(&self) -> bool {
+        self.can_reverse && self.sensors.bearings_rad(TAU / 2.0).any(|angle| wrapped(angle).abs() < 0.2)
     }
 }
 

@@ -7,6 +7,7 @@
 //!
 //! Everything is drawn from a seed. The same seed gives the same numbers.
 
+mod avoid;
 mod guide;
 mod mover;
 mod offline;
@@ -16,9 +17,10 @@ mod trace;
 mod trials;
 mod world;
 
-pub use mover::{Leg, Mover};
+pub use avoid::Tally;
+pub use mover::{Gait, Leg, Mover};
 pub use offline::{Offline, Trial};
 pub use task::Task;
-pub use trace::{Contact, Ending, Tick, Trace};
+pub use trace::{Contact, Ending, Foreseen, Sighting, Tick, Trace};
 pub use trials::{trial_rng, trials};
 pub use world::{Visit, World};

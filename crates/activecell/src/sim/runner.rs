@@ -1,19 +1,23 @@
 //! A robot under way in the task mode: its body in the world, its senses, and what it makes of them.
 
+use super::avoid::{Lookout, SURE, Tally};
 use super::guide::Guide;
 use super::offline::Feeler;
 use super::task::{Room, Task};
-use super::trace::{Contact, Ending, Tick, Trace};
+use super::trace::{Contact, Ending, Foreseen, Tick, Trace};
 use super::world::World;
 use crate::control::{Control, Inputs, State};
 use crate::lattice::Cell;
+use crate::map::PointM;
 use crate::program::{Motion, Pose, Robot};
 use crate::rng::Rng;
 use crate::sense::{Belief, Change, Estimate, look, wrapped};
 use std::f64::consts::PI;
 
 /// The time between two looks.
-const LOOK_S: f64 = 0.05;
+pub(super) const LOOK_S: f64 = 0.05;
+/// Contacts with what moves are looked for as often.
+const MOVING_S: f64 = 0.05;
 /// So many tries to face a cell.
 const TURNS: usize = 3;
 /// So many looks on the way from one cell to the next.
@@ -26,7 +30,7 @@ pub(super) struct Braked {
 }
 
 pub(super) struct Runner<'a> {
-    robot: &'a Robot,
+    pub(super) robot: &'a Robot,
     rng: &'a mut Rng,
     world: World,
     motion: Motion<'a>,
@@ -35,6 +39,8 @@ pub(super) struct Runner<'a> {
     pub(super) estimate: Estimate,
     pub(super) belief: Belief,
     pub(super) guide: Guide,
+    /// Where moving objects are reckoned with.
+    pub(super) lookout: Option<Lookout>,
     control: Control,
     readings_m: Vec<f64>,
     /// Where the last readings ended.
@@ -52,7 +58,7 @@ impl<'a> Runner<'a> {
         task: &Task<'_>,
         world: &World,
         robot: &'a Robot,
-        guide: Guide,
+        (guide, lookout): (Guide, Option<Lookout>),
         room: Room,
         rng: &'a mut Rng,
     ) -> Self {
@@ -68,6 +74,7 @@ impl<'a> Runner<'a> {
             estimate: Estimate::new(planned, &robot.errors),
             belief: Belief::new(task.map),
             guide,
+            lookout,
             control: Control::default(),
             readings_m: Vec::new(),
             ends: Vec::new(),
@@ -95,39 +102,90 @@ impl<'a> Runner<'a> {
         let distance_m = |bearing_rad: f64| world.distance_m(pose.at_m, bearing_rad, sensors.range_m);
         self.readings_m = look(sensors, pose, &distance_m, self.rng);
         self.estimate.correct(self.robot, &self.belief, &self.readings_m);
-        let changes = self.belief.observe(&self.estimate, sensors, &self.readings_m);
-        self.guide.set(&changes);
-        self.ends = self.belief.ends(&self.estimate, sensors, &self.readings_m);
+        self.detect();
+        let readings_m = self.readings_of_cells();
+        let changes = self.belief.observe(&self.estimate, sensors, &readings_m);
+        self.lead(&changes);
+        self.ends = self.belief.ends(&self.estimate, sensors, &readings_m);
         self.changes.extend(&changes);
         changes
     }
 
+    /// Tells all that leads it which cells are closed and open.
+    pub(super) fn lead(&mut self, changes: &[Change]) {
+        self.guide.set(changes);
+        if let Some(lookout) = &mut self.lookout {
+            lookout.set(changes);
+        }
+    }
+
+    /// What the detector sees of the objects that move: where they are from the robot, with noise along each axis, put
+    /// on the map by where it believes to be.
+    fn detect(&mut self) {
+        let Some(lookout) = &mut self.lookout else { return };
+        let (sensors, pose) = (&self.robot.sensors, self.motion.pose);
+        let (sin, cos) = pose.bearing_rad.sin_cos();
+        for (number, place_m) in self.world.sighted(pose.at_m, sensors.range_m) {
+            let (dx, dy) = (place_m[0] - pose.at_m[0], place_m[1] - pose.at_m[1]);
+            let ahead_m = dx * cos + dy * sin + sensors.noise_m * self.rng.normal();
+            let left_m = dy * cos - dx * sin + sensors.noise_m * self.rng.normal();
+            let away_m = ahead_m.hypot(left_m);
+            let within_m = SURE * sensors.noise_m.hypot(self.estimate.aside_m(away_m));
+            let at_m = self.estimate.pose().point(ahead_m, left_m);
+            lookout.observe(number, self.time_s, at_m, within_m, away_m);
+        }
+    }
+
+    /// The last readings as far as they are of cells: a beam that met an object that moves counts as one that ended at
+    /// once, which says nothing.
+    fn readings_of_cells(&self) -> Vec<f64> {
+        let Some(lookout) = &self.lookout else { return self.readings_m.clone() };
+        let (pose, sensors) = (self.estimate.pose(), &self.robot.sensors);
+        let beams = sensors.bearings_rad(pose.bearing_rad).zip(&self.readings_m);
+        let cells = beams.map(|(bearing_rad, &reading_m)| {
+            let end_m = Pose { bearing_rad, ..pose }.point(reading_m, 0.0);
+            if lookout.explains(self.time_s, end_m) { 0.0 } else { reading_m }
+        });
+        cells.collect()
+    }
+
     /// Lets time pass.
     pub(super) fn wait(&mut self, seconds: f64) {
-        self.time_s += seconds;
-        self.world.advance(self.time_s, self.motion.pose.at_m, self.robot.radius_m);
-        let mover = self.world.touched(self.motion.pose.at_m, self.robot.radius_m);
-        if mover.is_some() && mover != self.touching.1 {
-            self.contacts.push(Contact { time_s: self.time_s, at_m: self.motion.pose.at_m, mover });
+        self.pass(seconds, self.motion.pose.at_m, false);
+    }
+
+    /// Lets time pass while the robot comes straight from a place to where it is.
+    fn pass(&mut self, seconds: f64, from_m: PointM, driving: bool) {
+        let (begin_s, to_m) = (self.time_s, self.motion.pose.at_m);
+        let pieces = if self.world.movers().is_empty() { 1.0 } else { (seconds / MOVING_S).ceil().max(1.0) };
+        for piece in 1..=pieces as u32 {
+            let share = f64::from(piece) / pieces;
+            let at_m =
+                if share < 1.0 { [0, 1].map(|k| from_m[k] + share * (to_m[k] - from_m[k])) } else { to_m };
+            self.time_s = begin_s + share * seconds;
+            self.world.advance(self.time_s, at_m, self.robot.radius_m);
+            let mover = self.world.touched(at_m, self.robot.radius_m);
+            if let Some(number) = mover
+                && mover != self.touching.1
+            {
+                let promised =
+                    self.lookout.as_ref().is_some_and(|lookout| lookout.promised(number, self.time_s));
+                self.contacts.push(Contact { time_s: self.time_s, at_m, mover, driving, promised });
+            }
+            self.touching.1 = mover;
         }
-        self.touching.1 = mover;
     }
 
     /// Closes a cell that could not be entered, whatever the readings say.
     pub(super) fn close(&mut self, cell: Cell) {
         let change = self.belief.close(cell);
-        self.guide.set(change.as_slice());
+        self.lead(change.as_slice());
         self.changes.extend(change);
     }
 
     /// Whether the belief or one of the last readings speaks against entering the cell.
     pub(super) fn is_blocked(&self, cell: Cell) -> bool {
         !self.belief.map().is_free(cell) || self.ends.contains(&cell)
-    }
-
-    /// Whether it can drive backwards and one of its beams looks there.
-    pub(super) fn sees_behind(&self) -> bool {
-        self.robot.can_reverse && self.robot.sensors.bearings_rad(PI).any(|angle| wrapped(angle).abs() < 0.2)
     }
 
     /// From the believed position to a cell's centre.
@@ -160,6 +218,18 @@ impl<'a> Runner<'a> {
 
     /// One step of the control unit, written into the trace.
     pub(super) fn tick(&mut self, inputs: Inputs, cell: Cell, aim: Cell) -> State {
+        self.tick_by(inputs, cell, aim, None)
+    }
+
+    /// One that begins a slot.
+    pub(super) fn tick_by(
+        &mut self,
+        inputs: Inputs,
+        cell: Cell,
+        aim: Cell,
+        foreseen: Option<Foreseen>,
+    ) -> State {
+        let objects = self.lookout.as_ref().map_or_else(Vec::new, |lookout| lookout.sightings(self.time_s));
         let state = self.control.tick(inputs);
         self.ticks.push(Tick {
             time_s: self.time_s,
@@ -172,6 +242,8 @@ impl<'a> Runner<'a> {
             cell,
             aim,
             changes: std::mem::take(&mut self.changes),
+            objects,
+            foreseen,
         });
         state
     }
@@ -212,7 +284,7 @@ impl<'a> Runner<'a> {
     }
 
     /// Turns, looks how far it came, and turns the rest. A turn smaller than its own error is not worth making.
-    fn turn(&mut self, mut turn_rad: f64, back: bool, aim: Cell) {
+    pub(super) fn turn(&mut self, mut turn_rad: f64, back: bool, aim: Cell) {
         let mut least_rad = self.robot.errors.turn_rad;
         for _ in 0..TURNS {
             if turn_rad.abs() <= least_rad {
@@ -259,10 +331,12 @@ impl<'a> Runner<'a> {
         let mut feeler =
             Feeler { world: &self.world, radius_m: self.robot.radius_m, touching: self.touching.0 };
         if feeler.begins_to_touch(from_m, to_m) {
-            self.contacts.push(Contact { time_s: self.time_s, at_m: to_m, mover: None });
+            let contact =
+                Contact { time_s: self.time_s, at_m: to_m, mover: None, driving: true, promised: false };
+            self.contacts.push(contact);
         }
         self.touching.0 = feeler.touching;
-        self.wait(length_m.abs() / self.robot.max_speed_mps);
+        self.pass(length_m.abs() / self.robot.max_speed_mps, from_m, true);
     }
 
     /// The trace.
@@ -273,6 +347,7 @@ impl<'a> Runner<'a> {
             contacts: self.contacts,
             found: self.belief.found().collect(),
             length_m: self.length_m,
+            tally: self.lookout.map_or_else(Tally::default, |lookout| lookout.tally),
         }
     }
 }

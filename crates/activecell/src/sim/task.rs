@@ -1,13 +1,15 @@
 //! The task mode: look, learn, decide, drive a cell's length, and again.
 
+use super::avoid::{self, Lookout};
 use super::guide::Guide;
 use super::runner::{Braked, Runner};
-use super::trace::{Ending, Trace};
+use super::trace::{Ending, Foreseen, Trace};
 use super::world::World;
 use crate::control::{Inputs, State};
 use crate::error::Error;
 use crate::lattice::{Cell, Dir, Lattice};
 use crate::map::Map;
+use crate::predict::Bounds;
 use crate::program::{Drive, Robot};
 use crate::rng::Rng;
 use crate::rule::Rule;
@@ -51,10 +53,14 @@ pub struct Task<'a> {
     pub patience_s: f64,
     /// It gives up after so many steps of the control unit.
     pub max_ticks: usize,
+    /// What objects that move may do, if the robot has a detector for them: then it plans past them, slot by slot. Else
+    /// they are obstacles like others for its beams. [`Bounds::seen_within_m`] is what a position seen may be off
+    /// beyond five standard deviations of the detector's noise and of what the robot knows of where it is.
+    pub bounds: Option<Bounds>,
 }
 
 /// How many looks at each stop.
-const LOOKS: usize = 3;
+pub(super) const LOOKS: usize = 3;
 /// How often it looks while it waits for an obstacle to go away.
 const WAIT_S: f64 = 0.5;
 /// So many tries at a cell, in vain, close it.
@@ -63,7 +69,8 @@ const TRIES: usize = 4;
 impl<'a> Task<'a> {
     /// A task for the rule `wave`, with patience for 30 s.
     pub const fn new(map: &'a Map, from: Cell, to: Cell) -> Self {
-        Self { map, from, heading: Dir(1), to, rule: Rule::Wave, patience_s: 30.0, max_ticks: 1_000_000 }
+        let (heading, rule) = (Dir(1), Rule::Wave);
+        Self { map, from, heading, to, rule, patience_s: 30.0, max_ticks: 1_000_000, bounds: None }
     }
 
     /// Drives it.
@@ -76,15 +83,24 @@ impl<'a> Task<'a> {
         self.map.check_task(self.from, self.to)?;
         let room = Room::for_robot(self.map, robot)?;
         let guide = Guide::new(self.map, self.rule, self.to)?;
-        let runner = Runner::new(self, world, robot, guide, room, rng);
+        let lookout = self.bounds.map(|bounds| self.lookout(robot, room, bounds)).transpose()?;
+        let runner = Runner::new(self, world, robot, (guide, lookout), room, rng);
         Ok(Driver {
             task: self,
             runner,
             doubtful: BTreeSet::new(),
             confirmed: BTreeSet::new(),
             tries: (self.from, 0),
+            watched: (self.from, 0),
+            looked: false,
+            foreseen: None,
         }
         .drive())
+    }
+
+    fn lookout(&self, robot: &Robot, room: Room, bounds: Bounds) -> Result<Lookout, Error> {
+        let slots = avoid::slots(self.map, robot, room.arrival_m(self.map));
+        Lookout::new(self.map, self.to, bounds, robot.sensors.noise_m, slots)
     }
 }
 
@@ -98,6 +114,11 @@ pub(super) struct Room {
 }
 
 impl Room {
+    /// How far from a centre counts as in it.
+    fn arrival_m(self, map: &Map) -> f64 {
+        (map.frame().cell_m / 8.0).min(self.aside_m)
+    }
+
     /// Checks that the cells are large enough to drive with sensors.
     fn for_robot(map: &Map, robot: &Robot) -> Result<Self, Error> {
         let cell_m = map.frame().cell_m;
@@ -133,15 +154,21 @@ impl Room {
 }
 
 /// The decisions of one run.
-struct Driver<'a> {
-    task: &'a Task<'a>,
-    runner: Runner<'a>,
+pub(super) struct Driver<'a> {
+    pub(super) task: &'a Task<'a>,
+    pub(super) runner: Runner<'a>,
     /// Found obstacles that are taken as free, because else no way leads on, until they are looked at again.
     doubtful: BTreeSet<Cell>,
     /// Those that were looked at again and stood.
     confirmed: BTreeSet<Cell>,
     /// The last cell that could not be entered, and how often.
     tries: (Cell, usize),
+    /// The doubtful cell that it stands beside, and for how many slots.
+    pub(super) watched: (Cell, u32),
+    /// Whether it looked when the last slot ended.
+    pub(super) looked: bool,
+    /// What was foreseen for the slot that begins.
+    pub(super) foreseen: Option<Foreseen>,
 }
 
 /// What a step of the control unit is to do.
@@ -160,14 +187,21 @@ impl Driver<'_> {
             if self.runner.ticks() >= self.task.max_ticks {
                 break Ending::GaveUp;
             }
-            self.look(LOOKS);
+            if !std::mem::take(&mut self.looked) {
+                self.look(LOOKS);
+            }
             let own = self.own_cell();
+            let avoids = self.is_avoiding();
             if own == self.task.to && self.runner.off_centre_m(own) <= self.arrival_m() {
                 self.runner.tick(Inputs::GO.with(Inputs::STOP), own, own);
                 break Ending::Arrived;
             }
             if own == self.task.to {
-                self.go(own, own);
+                if avoids {
+                    self.avoid(own);
+                } else {
+                    self.go(own, own);
+                }
                 continue;
             }
             let Some(dir) = self.runner.guide.next(own, self.facing()) else {
@@ -178,7 +212,9 @@ impl Driver<'_> {
                 break Ending::Unreachable;
             };
             let next = self.task.map.lattice().neighbour(own, dir);
-            if self.doubtful.contains(&next) && !self.runner.belief.map().is_free(next) {
+            if avoids {
+                self.avoid(own);
+            } else if self.is_doubtful(next) {
                 self.look_again(own, next);
             } else if self.runner.aside_m(own, next) > self.runner.room.aside_m / 3.0 {
                 // Back to the line first.
@@ -191,11 +227,16 @@ impl Driver<'_> {
     }
 
     /// How near to the target's centre is near enough.
-    fn arrival_m(&self) -> f64 {
-        (self.task.map.frame().cell_m / 8.0).min(self.runner.room.aside_m)
+    pub(super) fn arrival_m(&self) -> f64 {
+        self.runner.room.arrival_m(self.task.map)
     }
 
-    fn look(&mut self, looks: usize) {
+    /// Whether it is taken as free only until it is looked at again.
+    pub(super) fn is_doubtful(&self, cell: Cell) -> bool {
+        self.doubtful.contains(&cell) && !self.runner.belief.map().is_free(cell)
+    }
+
+    pub(super) fn look(&mut self, looks: usize) {
         for _ in 0..looks {
             let changes = self.runner.look();
             for (cell, closed) in changes {
@@ -222,7 +263,7 @@ impl Driver<'_> {
     }
 
     /// The lattice's direction nearest to the heading.
-    fn facing(&self) -> Dir {
+    pub(super) fn facing(&self) -> Dir {
         let bearing_rad = self.runner.estimate.pose().bearing_rad;
         let map = self.task.map;
         let off = |dir: Dir| wrapped(map.bearing_rad(dir) - bearing_rad).abs();
@@ -236,33 +277,42 @@ impl Driver<'_> {
         let found = self.runner.belief.found();
         let new: Vec<Cell> =
             found.filter(|cell| !confirmed.contains(cell) && !guide.map().is_free(*cell)).collect();
-        self.runner.guide.set(&new.iter().map(|&cell| (cell, false)).collect::<Vec<_>>());
+        self.runner.lead(&new.iter().map(|&cell| (cell, false)).collect::<Vec<_>>());
         self.doubtful.extend(&new);
         !new.is_empty()
     }
 
-    /// Waits beside a doubtful cell whether it opens.
+    /// Waits beside a doubtful cell whether it opens, or something that moves comes near.
     fn look_again(&mut self, own: Cell, next: Cell) {
         let until_s = self.runner.time_s + self.task.patience_s;
         while self.runner.time_s < until_s && !self.runner.belief.map().is_free(next) {
+            if self.is_avoiding() {
+                return;
+            }
             self.runner.tick(Inputs::default(), own, next);
             self.runner.wait(WAIT_S);
             self.look(1);
         }
         if !self.runner.belief.map().is_free(next) {
-            self.doubtful.remove(&next);
-            self.confirmed.insert(next);
-            self.runner.guide.set(&[(next, true)]);
+            self.confirm(next);
         }
     }
 
+    /// Takes a doubtful cell for an obstacle.
+    pub(super) fn confirm(&mut self, cell: Cell) {
+        self.doubtful.remove(&cell);
+        self.confirmed.insert(cell);
+        self.runner.lead(&[(cell, true)]);
+    }
+
     /// One step of the control unit towards the centre of a cell, and the drive that it allows.
-    fn go(&mut self, own: Cell, aim: Cell) {
+    pub(super) fn go(&mut self, own: Cell, aim: Cell) {
         let plan = self.plan(own, aim);
         let inputs = self.inputs(own, &plan);
         // Nothing is wanted where the way is shut: the robot rests, and looks.
         let inputs = if plan.shut { Inputs(inputs.0 & !(Inputs::GO.0 | Inputs::REVERSE.0)) } else { inputs };
-        let state = self.runner.tick(inputs, own, aim);
+        let foreseen = self.foreseen.take();
+        let state = self.runner.tick_by(inputs, own, aim, foreseen);
         let moved = state == plan.state && {
             let back = state == State::Reverse;
             match self.runner.drive(plan.turn_rad, back, own, aim) {
@@ -284,12 +334,28 @@ impl Driver<'_> {
         }
     }
 
+    /// Turns on the spot.
+    pub(super) fn face(&mut self, own: Cell, dir: Dir) {
+        let aim = self.task.map.lattice().neighbour(own, dir);
+        // Within its own cell nothing is in its way.
+        let plan = Plan { aim: own, shut: false, ..self.plan(own, aim) };
+        let inputs = if matches!(plan.state, State::Left | State::Right) {
+            self.inputs(own, &plan)
+        } else {
+            Inputs::default()
+        };
+        let foreseen = self.foreseen.take();
+        if self.runner.tick_by(inputs, own, own, foreseen) == plan.state {
+            self.runner.turn(plan.turn_rad, false, aim);
+        }
+    }
+
     fn plan(&self, own: Cell, aim: Cell) -> Plan {
         let angle_rad = self.runner.angle_to(aim);
         let half_step = PI / f64::from(self.task.map.lattice().degree());
         let (state, turn_rad) = if angle_rad.abs() <= half_step {
             (State::Forward, angle_rad)
-        } else if angle_rad.abs() >= PI - half_step && self.runner.sees_behind() {
+        } else if angle_rad.abs() >= PI - half_step && self.runner.robot.sees_behind() {
             (State::Reverse, wrapped(angle_rad - PI))
         } else if angle_rad > 0.0 {
             (State::Left, angle_rad)
@@ -331,8 +397,9 @@ impl Driver<'_> {
                 let side = if angle_rad > 0.0 { Inputs::LEFT } else { Inputs::RIGHT };
                 (plan.state.drives_towards() != Some(side)).then_some(side)
             };
+            let foreseen = || self.runner.lookout.as_ref().is_some_and(|lookout| lookout.closes(own, dir));
             if let Some(side) = side
-                && self.runner.is_blocked(near)
+                && (self.runner.is_blocked(near) || foreseen())
             {
                 inputs = inputs.with(side);
             }

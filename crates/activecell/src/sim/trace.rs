@@ -1,8 +1,10 @@
 //! What a robot sensed and decided on its way.
 
+use super::avoid::Tally;
 use crate::control::{Inputs, State};
-use crate::lattice::Cell;
+use crate::lattice::{Cell, Dir};
 use crate::map::PointM;
+use crate::predict::Forecast;
 use crate::program::Pose;
 use crate::sense::Change;
 
@@ -51,6 +53,36 @@ pub struct Tick {
     pub aim: Cell,
     /// The cells that closed (`true`) and opened since the tick before.
     pub changes: Vec<Change>,
+    /// The moving objects that it reckons with.
+    pub objects: Vec<Sighting>,
+    /// The plan past them, where one was made.
+    pub foreseen: Option<Foreseen>,
+}
+
+/// A moving object as the robot knows it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sighting {
+    /// Its number.
+    pub number: u32,
+    /// Where it was last seen, as placed by where the robot believed to be.
+    pub at_m: PointM,
+    /// When.
+    pub seen_s: f64,
+    /// Where it is likely to be a slot later.
+    pub then: Forecast,
+}
+
+/// What was foreseen when a slot began.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Foreseen {
+    /// For how many slots the plan is safe.
+    pub safe_slots: usize,
+    /// Whether the robot waits in this one.
+    pub waits: bool,
+    /// Where it is to turn to on the spot.
+    pub turn: Option<Dir>,
+    /// The cells that are closed to stand in during this slot.
+    pub closed: Vec<Cell>,
 }
 
 /// A contact: when, and where the robot was.
@@ -62,6 +94,10 @@ pub struct Contact {
     pub at_m: PointM,
     /// The moving disc that was touched, by its number; `None` for an obstacle.
     pub mover: Option<usize>,
+    /// Whether the robot drove; if not, it was run into.
+    pub driving: bool,
+    /// Whether the plan had called the slot safe from this mover: then the mover broke its bounds, or the promise was.
+    pub promised: bool,
 }
 
 /// A whole run in the task mode.
@@ -77,4 +113,6 @@ pub struct Trace {
     pub found: Vec<Cell>,
     /// The way really driven.
     pub length_m: f64,
+    /// What moving objects cost it.
+    pub tally: Tally,
 }

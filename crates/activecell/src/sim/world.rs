@@ -1,6 +1,6 @@
 //! The true world: cells that are obstacles, some only for a while, and discs that move.
 
-use super::mover::Mover;
+use super::mover::{Mover, Stroll};
 use crate::lattice::Cell;
 use crate::map::{Map, PointM};
 
@@ -29,7 +29,9 @@ pub struct World {
     map: Map,
     visits: Vec<Waiting>,
     movers: Vec<Mover>,
-    time_s: f64,
+    strolls: Vec<Stroll>,
+    /// Where the movers are now.
+    places_m: Vec<PointM>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -41,7 +43,13 @@ struct Waiting {
 impl World {
     /// The world of a map, in which nothing moves.
     pub fn new(map: &Map) -> Self {
-        Self { map: map.clone(), visits: Vec::new(), movers: Vec::new(), time_s: 0.0 }
+        Self {
+            map: map.clone(),
+            visits: Vec::new(),
+            movers: Vec::new(),
+            strolls: Vec::new(),
+            places_m: Vec::new(),
+        }
     }
 
     /// With obstacles that come and go. A cell that is an obstacle anyway stays one.
@@ -55,6 +63,8 @@ impl World {
     /// With discs that move.
     #[must_use]
     pub fn with_movers(mut self, movers: Vec<Mover>) -> Self {
+        self.strolls = movers.iter().map(Stroll::new).collect();
+        self.places_m = movers.iter().map(|mover| mover.start.at_m).collect();
         self.movers = movers;
         self
     }
@@ -71,7 +81,9 @@ impl World {
 
     /// Lets the time go on. What is to appear in a cell that the robot's disc touches waits.
     pub fn advance(&mut self, time_s: f64, robot_m: PointM, radius_m: f64) {
-        self.time_s = time_s;
+        for ((mover, stroll), place_m) in self.movers.iter().zip(&mut self.strolls).zip(&mut self.places_m) {
+            *place_m = stroll.at_m(mover, time_s);
+        }
         for index in 0..self.visits.len() {
             let Waiting { visit, stands } = self.visits[index];
             let due = (visit.from_s..visit.to_s).contains(&time_s);
@@ -88,8 +100,26 @@ impl World {
     /// How far a beam gets before it meets a cell or a disc; `range_m` if it meets nothing.
     pub fn distance_m(&self, from_m: PointM, bearing_rad: f64, range_m: f64) -> f64 {
         let wall_m = self.map.cast(from_m, bearing_rad, range_m).map_or(range_m, |hit| hit.enter_m);
-        let discs = self.movers.iter().filter_map(|mover| mover.met_m(self.time_s, from_m, bearing_rad));
-        discs.fold(wall_m, f64::min)
+        let discs = self.movers.iter().zip(&self.places_m);
+        let met = discs.filter_map(|(mover, &place_m)| mover.met_m(place_m, from_m, bearing_rad));
+        met.fold(wall_m, f64::min)
+    }
+
+    /// The movers of which a detector sees something from a point, by their numbers: not farther than `range_m` to
+    /// the nearest point, and the middle or one edge not hidden by an obstacle.
+    pub(super) fn sighted(&self, from_m: PointM, range_m: f64) -> impl Iterator<Item = (u32, PointM)> + '_ {
+        let all = (0..).zip(self.movers.iter().zip(&self.places_m));
+        let seen = all.filter(move |&(_, (mover, place_m))| {
+            let (dx, dy) = (place_m[0] - from_m[0], place_m[1] - from_m[1]);
+            let far_m = dx.hypot(dy);
+            far_m - mover.radius_m <= range_m
+                && [0.0, -0.95, 0.95].into_iter().any(|share| {
+                    let aside = share * mover.radius_m / far_m.max(1e-9);
+                    let (x, y) = (dx - aside * dy, dy + aside * dx);
+                    self.map.cast(from_m, y.atan2(x), x.hypot(y)).is_none()
+                })
+        });
+        seen.map(|(number, (_, &place_m))| (number, place_m))
     }
 
     /// How near a point that goes straight from one place to another comes to a cell that is an obstacle or outside
@@ -124,10 +154,10 @@ impl World {
 
     /// The disc that a robot at a point touches now, if any.
     pub fn touched(&self, robot_m: PointM, radius_m: f64) -> Option<usize> {
-        self.movers.iter().position(|mover| {
-            let [x, y] = mover.at_m(self.time_s);
-            (x - robot_m[0]).hypot(y - robot_m[1]) < radius_m + mover.radius_m
-        })
+        self.movers
+            .iter()
+            .zip(&self.places_m)
+            .position(|(mover, [x, y])| (x - robot_m[0]).hypot(y - robot_m[1]) < radius_m + mover.radius_m)
     }
 }
 

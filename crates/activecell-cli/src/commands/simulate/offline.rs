@@ -67,8 +67,10 @@ pub(crate) fn run(args: &SimulateArgs, stage: &Stage, terminal: &Terminal) -> an
     }
     if !args.picture.is_empty() {
         let title = title(stage, &report);
-        let moments: Vec<Moment<'_>> =
-            way.iter().map(|&pose| Moment { pose, readings_m: &[], changes: &[] }).collect();
+        let moments: Vec<Moment<'_>> = way
+            .iter()
+            .map(|&pose| Moment { pose, readings_m: &[], changes: &[], movers: &[], forecasts: &[] })
+            .collect();
         let still = SimulationPicture {
             way: &way,
             ends_m: &ends_m,

@@ -1,9 +1,10 @@
 //! From the arguments to a world, a robot and its run.
 
 use super::super::load;
-use crate::args::{SimulateArgs, WrongArgument};
+use crate::args::{ModeArg, SimulateArgs, WrongArgument};
 use crate::terminal::Terminal;
-use activecell::sim::{Visit, World, trial_rng};
+use activecell::predict::Bounds;
+use activecell::sim::{Gait, Mover, Visit, World, trial_rng};
 use activecell::{BitPlane, Cell, Drive, Map, Program, Robot};
 use activecell_formats::files::{self, ReadOptions};
 use activecell_formats::run::{self, MAX_RUN_BYTES, Run};
@@ -20,7 +21,16 @@ pub(crate) struct Stage {
     /// The run's name for titles.
     pub(crate) name: String,
     pub(crate) threads: usize,
+    /// What the walkers may do, if there are any.
+    pub(crate) bounds: Option<Bounds>,
 }
+
+/// The radius of a walker, how fast it changes its speed, and how long it walks.
+const WALKER_M: f64 = 0.2;
+const WALKER_MPS2: f64 = 0.3;
+const WALK_S: f64 = 10_000.0;
+/// No walker sets out nearer to the robot.
+const APART_M: f64 = 2.0;
 
 impl Stage {
     /// What trace files begin with.
@@ -52,9 +62,46 @@ pub(crate) fn set(args: &SimulateArgs, terminal: &Terminal) -> anyhow::Result<St
         let cell = visit.cell;
         return Err(WrongArgument(format!("--appear {cell}: no free cell of the world; name one")).into());
     }
+    if args.movers > 0 && args.mode == ModeArg::Offline {
+        return Err(WrongArgument("--movers: no sensor is asked offline; add --mode task".into()).into());
+    }
+    let bounds = (args.movers > 0).then_some(Bounds {
+        radius_m: WALKER_M,
+        max_speed_mps: args.mover_speed,
+        max_accel_mps2: WALKER_MPS2,
+        seen_within_m: 0.0,
+    });
+    let walkers = walkers(args, &map, run.from)?;
     let name = args.run.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let threads = args.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from);
-    Ok(Stage { run, world: World::new(&map).with_visits(&visits), name, threads })
+    let world = World::new(&map).with_visits(&visits).with_movers(walkers);
+    Ok(Stage { run, world, name, threads, bounds })
+}
+
+/// Walkers that set out on free cells away from the robot.
+fn walkers(args: &SimulateArgs, map: &Map, from: Cell) -> anyhow::Result<Vec<Mover>> {
+    let [x, y] = map.centre_m(from);
+    let far = |cell: &Cell| {
+        let at_m = map.centre_m(*cell);
+        (at_m[0] - x).hypot(at_m[1] - y) > APART_M
+    };
+    let free: Vec<Cell> = map.free().filter(far).collect();
+    anyhow::ensure!(
+        args.movers == 0 || !free.is_empty(),
+        "--movers: no free cell lies more than {APART_M} m from the start; use a larger map"
+    );
+    // Just below what the robot is told, so that rounding does not break it.
+    let gait = Gait {
+        radius_m: WALKER_M,
+        max_speed_mps: 0.999 * args.mover_speed,
+        max_accel_mps2: 0.999 * WALKER_MPS2,
+    };
+    let mut rng = trial_rng(args.seed, u64::MAX - 1);
+    let mut walker = || {
+        let cell = free[rng.below(free.len() as u32) as usize];
+        Mover::walker(map, cell, gait, WALK_S, &mut rng)
+    };
+    Ok((0..args.movers).map(|_| walker()).collect())
 }
 
 /// The program for another robot: the same runs and turns.

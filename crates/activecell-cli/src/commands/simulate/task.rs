@@ -5,10 +5,10 @@ use super::stage::Stage;
 use super::{counted, percent, picture};
 use crate::args::SimulateArgs;
 use crate::terminal::Terminal;
-use activecell::sim::{Ending, Task, Trace, trial_rng, trials};
+use activecell::sim::{Ending, Sighting, Tally, Task, Tick, Trace, trial_rng, trials};
 use activecell::{Dir, PointM, Pose};
 use activecell_formats::files;
-use activecell_formats::trace::{Distribution, TaskReport};
+use activecell_formats::trace::{Distribution, MoversReport, TaskReport};
 use activecell_picture::{Moment, SimulationPicture};
 
 /// What is kept of a trial.
@@ -19,12 +19,16 @@ struct Kept {
     end_error_m: f64,
     estimate_error_m: f64,
     contacts: usize,
+    /// With something that moves: while driving, while standing.
+    run_into: [usize; 2],
+    tally: Tally,
 }
 
 pub(crate) fn run(args: &SimulateArgs, stage: &Stage, terminal: &Terminal) -> anyhow::Result<Done> {
     let run = &stage.run;
     let heading = run.program.heading.unwrap_or(Dir(0));
-    let task = Task { heading, rule: run.rule, ..Task::new(&run.map, run.from, run.to) };
+    let task =
+        Task { heading, rule: run.rule, bounds: stage.bounds, ..Task::new(&run.map, run.from, run.to) };
     // The first trial alone tells whether the task can be set at all, and its trace is kept.
     let first = task.run(&stage.world, &run.robot, &mut trial_rng(args.seed, 0))?;
     let count = args.trials.unwrap_or(1);
@@ -60,11 +64,8 @@ fn draw(
     let way: Vec<Pose> = trace.ticks.iter().map(|tick| tick.truth).collect();
     let believed: Vec<Pose> = trace.ticks.iter().map(|tick| tick.estimate).collect();
     let contacts_m: Vec<PointM> = trace.contacts.iter().map(|contact| contact.at_m).collect();
-    let moments: Vec<Moment<'_>> = trace
-        .ticks
-        .iter()
-        .map(|tick| Moment { pose: tick.truth, readings_m: &tick.readings_m, changes: &tick.changes })
-        .collect();
+    let instants = instants(stage, trace);
+    let moments: Vec<Moment<'_>> = instants.iter().map(Instant::moment).collect();
     let (ending, found) = (trace.ending.name(), counted(trace.found.len() as u64, "obstacle"));
     let length_m = trace.length_m;
     let contacts = counted(trace.contacts.len() as u64, "contact");
@@ -83,6 +84,67 @@ fn draw(
     picture::write(args, stage, &still, &moments, terminal)
 }
 
+/// A moment of the drive, between two ticks perhaps.
+struct Instant<'a> {
+    pose: Pose,
+    tick: &'a Tick,
+    /// The first moment of its tick.
+    first: bool,
+    movers: Vec<(PointM, f64)>,
+    forecasts: Vec<(PointM, f64)>,
+}
+
+/// Among movers so much time passes between two moments.
+const MOMENT_S: f64 = 0.5;
+
+/// The ticks; among movers also moments between them, as the next tick may be a slot later.
+fn instants<'a>(stage: &Stage, trace: &'a Trace) -> Vec<Instant<'a>> {
+    let movers = stage.world.movers();
+    let mut instants = Vec::new();
+    for (number, tick) in trace.ticks.iter().enumerate() {
+        let next = trace.ticks.get(number + 1).unwrap_or(tick);
+        let pieces = if movers.is_empty() {
+            1
+        } else {
+            ((next.time_s - tick.time_s) / MOMENT_S).ceil().max(1.0) as u32
+        };
+        let forecasts: Vec<(PointM, f64)> =
+            fresh(tick).map(|seen| (seen.then.at_m, seen.then.radius_m(0.9).max(0.1))).collect();
+        for piece in 0..pieces {
+            let share = f64::from(piece) / f64::from(pieces);
+            let between = |a: f64, b: f64| a + share * (b - a);
+            let (from, to) = (tick.truth, next.truth);
+            let turned_rad = activecell::sense::wrapped(to.bearing_rad - from.bearing_rad);
+            let pose = Pose {
+                at_m: [0, 1].map(|k| between(from.at_m[k], to.at_m[k])),
+                bearing_rad: from.bearing_rad + share * turned_rad,
+            };
+            let time_s = between(tick.time_s, next.time_s);
+            let movers = movers.iter().map(|mover| (mover.at_m(time_s), mover.radius_m)).collect();
+            instants.push(Instant { pose, tick, first: piece == 0, movers, forecasts: forecasts.clone() });
+        }
+    }
+    instants
+}
+
+/// The objects in sight; what is only remembered would cover half the floor.
+fn fresh(tick: &Tick) -> impl Iterator<Item = &Sighting> {
+    tick.objects.iter().filter(|seen| tick.time_s - seen.seen_s < MOMENT_S)
+}
+
+impl Instant<'_> {
+    fn moment(&self) -> Moment<'_> {
+        let (readings_m, changes) = (&self.tick.readings_m, &self.tick.changes);
+        Moment {
+            pose: self.pose,
+            readings_m: if self.first { readings_m } else { &[] },
+            changes: if self.first { changes } else { &[] },
+            movers: &self.movers,
+            forecasts: &self.forecasts,
+        }
+    }
+}
+
 fn keep(stage: &Stage, trace: &Trace) -> Kept {
     let apart_m = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]);
     let target_m = stage.run.map.centre_m(stage.run.to);
@@ -94,6 +156,10 @@ fn keep(stage: &Stage, trace: &Trace) -> Kept {
         end_error_m: trace.ticks.last().map_or(0.0, |tick| apart_m(tick.truth.at_m, target_m)),
         estimate_error_m: off.fold(0.0, f64::max),
         contacts: trace.contacts.len(),
+        run_into: [true, false].map(|driving| {
+            trace.contacts.iter().filter(|c| c.mover.is_some() && c.driving == driving).count()
+        }),
+        tally: trace.tally,
     }
 }
 
@@ -117,7 +183,21 @@ fn report(args: &SimulateArgs, stage: &Stage, first: &Trace, kept: &[Kept]) -> T
         estimate_error_m: of(|kept| kept.estimate_error_m),
         touched: touched as f64 / kept.len().max(1) as f64,
         contacts: kept.iter().map(|kept| kept.contacts as u64).sum(),
+        movers: stage.bounds.map(|_| moved(kept)),
         found: first.found.iter().map(|cell| [cell.x, cell.y]).collect(),
+    }
+}
+
+/// What moving objects did to all trials.
+fn moved(kept: &[Kept]) -> MoversReport {
+    let sum = |of: fn(&Kept) -> usize| kept.iter().map(of).sum::<usize>() as u64;
+    MoversReport {
+        waited_s: Distribution::of(kept.iter().map(|kept| kept.tally.waited_s)),
+        slots: sum(|kept| kept.tally.slots),
+        slots_without_a_safe_step: sum(|kept| kept.tally.helpless),
+        seen_too_late: sum(|kept| kept.tally.surprises),
+        contacts_driving: sum(|kept| kept.run_into[0]),
+        contacts_standing: sum(|kept| kept.run_into[1]),
     }
 }
 
@@ -149,6 +229,17 @@ fn text(report: &TaskReport) -> String {
         "found          {} that the map does not have",
         counted(report.found.len() as u64, "obstacle")
     ));
+    if let Some(movers) = &report.movers {
+        lines.push(spread("waited", "s", 0, &movers.waited_s));
+        let MoversReport { slots, slots_without_a_safe_step, contacts_driving, contacts_standing, .. } =
+            movers;
+        lines.push(format!(
+            "slots          {slots} planned past movers, {slots_without_a_safe_step} without a safe step"
+        ));
+        lines.push(format!(
+            "movers         touched by the driving robot {contacts_driving} times, ran into the standing one {contacts_standing} times"
+        ));
+    }
     lines.push(if report.contacts == 0 {
         "contacts       none".to_owned()
     } else {
