@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 14] = [
+const LAYERS: [&str; 15] = [
     "rng",
     "lattice",
     "error",
@@ -22,6 +22,7 @@ const LAYERS: [&str; 14] = [
     "error_budget",
     "calibrate",
     "predict",
+    "fleet",
 ];
 const MAX_LINES: usize = 600;
 
