@@ -23,7 +23,7 @@ pub struct Options {
 pub struct Limits {
     /// Time from the call on; with it, the plan may depend on the machine.
     pub time: Option<Duration>,
-    /// Steps of the search; the same steps give the same plan everywhere.
+    /// Steps of the search: with this limit alone, the plan is the same everywhere.
     pub steps: Option<u64>,
     /// Memory of the search, in bytes, without floor and fields.
     pub bytes: usize,
@@ -39,9 +39,9 @@ impl Default for Options {
 }
 
 impl Default for Limits {
-    /// 10 s, a gibibyte.
+    /// 10 s, 256 MiB.
     fn default() -> Self {
-        Self { time: Some(Duration::from_secs(10)), steps: None, bytes: 1 << 30, first: false }
+        Self { time: Some(Duration::from_secs(10)), steps: None, bytes: 1 << 28, first: false }
     }
 }
 

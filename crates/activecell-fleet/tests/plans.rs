@@ -69,6 +69,48 @@ fn the_sum_of_costs_only_falls_and_the_seed_decides_all() {
     }
 }
 
+#[test]
+fn crowds_with_hardly_a_free_cell_are_solved() {
+    for seed in 0..30 {
+        let lattice = Lattice::ALL[seed as usize % 2];
+        let map = Map::random(lattice, 12, 12, 0.1, seed).unwrap();
+        let all = random_team(&map, usize::MAX, seed);
+        let team = random_team(&map, all.robots() * 95 / 100, seed);
+        let outcome = solve(&map, &team, &options(seed, 100_000, true), |_| {}).unwrap();
+        assert_eq!(check_plan(&map, &team, &outcome.plan.unwrap()), Ok(()), "{lattice} {seed}");
+    }
+}
+
+/// Robots that must all turn back in a corridor with one bay.
+#[test]
+fn robots_pass_each_other_where_there_is_room_for_one_only() {
+    for (lattice, floor) in [
+        (
+            Lattice::Square,
+            "........
+###.####",
+        ),
+        (
+            Lattice::Square,
+            "..........
+#######.##",
+        ),
+        (
+            Lattice::Hex,
+            "........
+###..###",
+        ),
+    ] {
+        let map = Map::parse(lattice, floor).unwrap();
+        let row = |x: i32| Cell::new(x, 0);
+        let last = map.width() as i32 - 1;
+        let team =
+            Team::new(&map, vec![row(0), row(1), row(last)], vec![row(last), row(last - 1), row(0)]).unwrap();
+        let outcome = solve(&map, &team, &options(3, 50_000, true), |_| {}).unwrap();
+        assert_eq!(check_plan(&map, &team, &outcome.plan.unwrap()), Ok(()), "{floor}");
+    }
+}
+
 /// Five thousand robots in a queue: the last pushes all of them at once, none of it on the call stack.
 #[test]
 fn a_long_queue_is_pushed_without_deep_recursion() {

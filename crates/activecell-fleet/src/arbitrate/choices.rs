@@ -100,7 +100,9 @@ mod tests {
             let choices = orders.choose(chance, [0b100_0010, 0, 0b1001, 0b11_0100]);
             let slots: Vec<u32> = choices.clone().collect();
             let mut parts = [slots[..2].to_vec(), slots[2..4].to_vec(), slots[4..].to_vec()];
-            parts.iter_mut().for_each(|part| part.sort_unstable());
+            for part in &mut parts {
+                part.sort_unstable();
+            }
             assert_eq!(parts, [vec![1, 6], vec![0, 3], vec![2, 4, 5]]);
             let back: Vec<u32> = choices.reversed().collect();
             assert!(back.iter().rev().eq(&slots));

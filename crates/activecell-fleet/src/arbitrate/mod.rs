@@ -54,6 +54,9 @@ pub struct Arbiter<'a> {
     /// For each robot the cell that it should try first, or [`NONE`]; empty if no robot has one. This is how guidance
     /// steers: a cell that does not touch the robot's own is passed over.
     pub wishes: Vec<u32>,
+    /// Whether a robot would rather not push one that is at its target, where another cell is as good. That costs less, but
+    /// in a crowd it may go on for ever: the search changes it when it makes no headway.
+    pub shy: bool,
     cells: Vec<Standing>,
     stack: Vec<Asked>,
     orders: Orders,
@@ -86,6 +89,7 @@ impl<'a> Arbiter<'a> {
             fields,
             goals,
             wishes: Vec::new(),
+            shy: true,
             cells: vec![Standing { now: NONE, next: NONE }; floor.numbers()],
             stack: Vec::new(),
             orders: Orders::new(),
@@ -115,7 +119,7 @@ impl<'a> Arbiter<'a> {
 
     /// Fills `next` with where the robots in `now` go. Robots are settled in the `order` given, highest priority first;
     /// those of `fixed` go to the cell given with them, their own or one that it touches. False if no step was
-    /// found; then `next` has no meaning. Without `fixed` robots, or with one, a step is always found.
+    /// found; then `next` has no meaning. Without `fixed` robots a step is always found.
     ///
     /// # Panics
     /// If `now`, `next` and the goals are not equally many, or a number is none of the floor's.
@@ -231,9 +235,15 @@ impl<'a> Arbiter<'a> {
             }
         }
         let pushed = self.cells[here as usize].next != NONE;
-        let [once, twice] = if nearer.count_ones() > 1 || pushed { self.hindered(here) } else { [0; 2] };
-        let parts = |class: u32| [class & !once, class & once & !twice, class & twice];
-        let classes = [parts(nearer), parts(level), parts(farther)];
+        let [once, twice, home] =
+            if nearer.count_ones() > 1 || pushed { self.hindered(here) } else { [0; 3] };
+        let home = if self.shy { home } else { 0 };
+        let parts = |class: u32| {
+            let class = class & !home;
+            [class & !once, class & once & !twice, class & twice]
+        };
+        let (nearer, disturbing) = (parts(nearer), nearer & home);
+        let classes = [nearer, [disturbing, 0, 0], parts(level), parts(farther), [farther & home, 0, 0]];
         let choices = self.orders.choose(chance, classes.into_iter().flatten());
         let Some(&wish) = self.wishes.get(robot as usize) else { return choices };
         match self.floor.links(here).iter().position(|&cell| cell == wish) {
@@ -244,22 +254,27 @@ impl<'a> Arbiter<'a> {
     }
 
     /// The slots in which a robot that leaves `here` would be in the way of a neighbour that comes through `here`: of one
-    /// at least, and of two at least.
-    fn hindered(&self, here: u32) -> [u32; 2] {
+    /// at least, and of two at least; and those of robots that are at their targets.
+    fn hindered(&self, here: u32) -> [u32; 3] {
         let links = self.floor.links(here);
-        let [mut once, mut twice] = [0, 0];
-        for &from in links {
+        let [mut once, mut twice, mut home] = [0, 0, 0];
+        for (slot, &from) in links.iter().enumerate() {
             let other = self.cells[from as usize].now;
             if other == NONE {
                 continue;
             }
-            let field = self.fields.field(self.goals[other as usize].slot);
+            let goal = self.goals[other as usize];
+            if goal.target == from {
+                home |= 1 << slot;
+                continue;
+            }
+            let field = self.fields.field(goal.slot);
             if field.compare(from, here) == Ordering::Less {
                 let on = |&(_, &there): &(usize, &u32)| field.compare(here, there) == Ordering::Less;
                 let ways = links.iter().enumerate().filter(on).fold(0, |ways, (slot, _)| ways | 1 << slot);
                 (once, twice) = (once | ways, twice | once & ways);
             }
         }
-        [once, twice]
+        [once, twice, home]
     }
 }

@@ -7,6 +7,10 @@ use super::Arbiter;
 use crate::floor::NONE;
 use std::cmp::Ordering;
 
+/// How many cells along a corridor two robots look. Without it a queue of n robots in a corridor of n cells would take n²
+/// time a step; robots that are farther from a fork come to it by the same rule.
+const FORESEEN: usize = 100;
+
 /// What a cell behind the front cell of a corridor offers.
 enum Ahead {
     /// Two ways or more: robots can pass each other.
@@ -44,7 +48,10 @@ impl Arbiter<'_> {
     /// while the pusher drives the puller along its way.
     fn must_swap(&self, [pusher, puller]: [u32; 2], mut behind: u32, mut front: u32) -> bool {
         let push = self.fields.field(self.goals[pusher as usize].slot);
-        while push.compare(behind, front) == Ordering::Less {
+        for _ in 0..FORESEEN {
+            if push.compare(behind, front) != Ordering::Less {
+                break;
+            }
             match self.ahead(behind, front) {
                 Ahead::Fork => return false,
                 Ahead::Way(on) => (behind, front) = (front, on),
@@ -56,11 +63,9 @@ impl Arbiter<'_> {
             && (behind == self.goals[pusher as usize].target || push.compare(behind, front) == Ordering::Less)
     }
 
-    /// Whether a fork lies behind the robot in `front`, where it can let the one in `behind` pass. (Here the one that
-    /// backs out is driven.)
-    fn can_swap(&self, behind: u32, front: u32) -> bool {
+    /// Whether the robot in `front`, driven back by the one in `behind`, comes to a fork, where it can let it pass.
+    fn can_swap(&self, mut behind: u32, mut front: u32) -> bool {
         let origin = behind;
-        let (mut behind, mut front) = (behind, front);
         while front != origin {
             match self.ahead(behind, front) {
                 Ahead::Fork => return true,

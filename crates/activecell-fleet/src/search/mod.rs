@@ -10,7 +10,7 @@
 
 mod nodes;
 
-use crate::arbitrate::Arbiter;
+use crate::arbitrate::{Arbiter, Goal};
 use crate::floor::NONE;
 use activecell::{Cell, Plan, Rng};
 use nodes::{Nodes, Reached, share};
@@ -19,6 +19,9 @@ use std::collections::BinaryHeap;
 
 /// How often the search goes back to the start when it meets a known configuration, so that it does not stay in a corner.
 const RESTARTS: f64 = 0.001;
+
+/// How many nodes the search may add before it starts over, beside those that the longest way asks for.
+const PATIENCE: usize = 500;
 
 /// What one step of the search brought.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,6 +67,10 @@ pub struct Search<'a> {
     /// The step that arbitration fills.
     next: Vec<u32>,
     priorities: Priorities,
+    /// Nodes that may be added before the search, still without a plan, starts over.
+    patience: usize,
+    /// Nodes when it does.
+    start_over: usize,
 }
 
 impl<'a> Search<'a> {
@@ -74,7 +81,7 @@ impl<'a> Search<'a> {
     pub fn new(arbiter: Arbiter<'a>, starts: &[u32], seed: u64) -> Self {
         assert_eq!(starts.len(), arbiter.goals().len(), "one start and one goal a robot");
         let distance =
-            |(&start, goal): (&u32, &crate::Goal)| arbiter.fields().steps(arbiter.floor(), goal.slot, start);
+            |(&start, goal): (&u32, &Goal)| arbiter.fields().steps(arbiter.floor(), goal.slot, start);
         let distances: Vec<u32> = starts.iter().zip(arbiter.goals()).map(distance).collect();
         let mut ranks: Vec<u32> = (0..starts.len() as u32).collect();
         ranks.sort_by_key(|&robot| Reverse(distances[robot as usize]));
@@ -83,6 +90,9 @@ impl<'a> Search<'a> {
             spent: 0,
             ahead: distances.iter().map(|&steps| u64::from(steps)).sum(),
         };
+        // A plan in a crowd takes several times as many steps as its longest way.
+        let longest = distances.iter().copied().max().unwrap_or(0) as usize;
+        let patience = PATIENCE + 8 * longest;
         let mut nodes = Nodes::new();
         let start = nodes.add(starts, arbiter.goals(), NONE, root);
         Self {
@@ -94,12 +104,19 @@ impl<'a> Search<'a> {
             rng: Rng::new(!seed),
             next: vec![NONE; starts.len()],
             priorities: Priorities::default(),
+            patience,
+            start_over: patience,
         }
     }
 
     /// The sum of the distances from the starts to the targets: no plan costs less.
     pub fn lower_bound(&self) -> u64 {
         self.nodes.get(0).ahead
+    }
+
+    /// Where the robots want to go.
+    pub fn goals(&self) -> &[Goal] {
+        self.arbiter.goals()
     }
 
     /// How many configurations the search has met.
@@ -188,25 +205,73 @@ impl<'a> Search<'a> {
         order.iter().copied().zip(cells).collect()
     }
 
+    /// Puts a plan that was found elsewhere, a refined one say, among the search's own: what it has in common with them
+    /// becomes cheaper for all. True if there is a better plan now.
+    ///
+    /// The plan must lead from the search's starts to its targets by the rules; [`activecell::check_plan`] tells.
+    pub fn insert(&mut self, plan: &Plan) -> bool {
+        let before = self.loss();
+        let floor = self.arbiter.floor();
+        if plan.robots() != self.next.len() {
+            return false;
+        }
+        let mut at = 0;
+        for row in plan.rows().skip(1) {
+            for (next, &cell) in self.next.iter_mut().zip(row) {
+                *next = floor.number(cell);
+            }
+            let (node, new) = self.join(at);
+            if new {
+                self.open.push(node);
+            }
+            at = node;
+        }
+        if self.nodes.get(at).ahead == 0 {
+            self.goal = Some(at);
+        }
+        self.loss() != before
+    }
+
     /// Deals with the configuration that arbitration reached from a node.
     fn reach(&mut self, from: u32) -> Advance {
-        let reached = self.weigh(from);
-        let Some(known) = self.nodes.find(&self.next, reached.hash) else {
-            let new = self.nodes.add(&self.next, self.arbiter.goals(), from, reached);
-            self.nodes.link(from, new);
-            self.open.push(new);
-            return Advance::Searching;
-        };
         let before = self.loss();
-        if self.nodes.link(from, known) {
-            self.cheapen(known, from, reached.spent);
+        let (node, new) = self.join(from);
+        if new {
+            self.open.push(node);
+            if self.goal.is_none() && self.nodes.len() > self.start_over {
+                self.start_over();
+            }
+            return Advance::Searching;
         }
-        let again = if self.rng.chance(RESTARTS) { 0 } else { known };
+        let again = if self.rng.chance(RESTARTS) { 0 } else { node };
         let node = self.nodes.get(again);
         if self.loss().is_none_or(|loss| node.spent + node.ahead < loss) {
             self.open.push(again);
         }
         if self.loss() == before { Advance::Searching } else { Advance::Better }
+    }
+
+    /// The node of the configuration in `next`, which is reached from another; and whether it is new.
+    fn join(&mut self, from: u32) -> (u32, bool) {
+        let reached = self.weigh(from);
+        let Some(known) = self.nodes.find(&self.next, reached.hash) else {
+            let new = self.nodes.add(&self.next, self.arbiter.goals(), from, reached);
+            self.nodes.link(from, new);
+            return (new, true);
+        };
+        if self.nodes.link(from, known) {
+            self.cheapen(known, from, reached.spent);
+        }
+        (known, false)
+    }
+
+    /// In a crowd a dive may go on for ever without meeting a known configuration. Then another one from the start, with
+    /// other manners and more patience, is better; what was met stays open.
+    fn start_over(&mut self) {
+        self.arbiter.shy = !self.arbiter.shy;
+        self.patience += self.patience / 2;
+        self.start_over = self.nodes.len() + self.patience;
+        self.open.push(0);
     }
 
     /// The hash of the step that arbitration made, the loss up to it, and the distances from there.
