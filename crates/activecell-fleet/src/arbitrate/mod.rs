@@ -226,14 +226,8 @@ impl<'a> Arbiter<'a> {
     fn choices(&mut self, robot: u32, here: u32) -> Choices {
         let chance = self.rng.next_u64();
         let field = self.fields.field(self.goals[robot as usize].slot);
-        let (mut nearer, mut level, mut farther) = (0u32, 1 << STAY, 0u32);
-        for (slot, &there) in self.floor.links(here).iter().enumerate() {
-            match field.compare(here, there) {
-                Ordering::Less => nearer |= 1 << slot,
-                Ordering::Equal => level |= 1 << slot,
-                Ordering::Greater => farther |= 1 << slot,
-            }
-        }
+        let [nearer, level, farther] = field.split(here, self.floor.links(here));
+        let level = level | 1 << STAY;
         let pushed = self.cells[here as usize].next != NONE;
         let [once, twice, home] =
             if nearer.count_ones() > 1 || pushed { self.hindered(here) } else { [0; 3] };
@@ -270,8 +264,7 @@ impl<'a> Arbiter<'a> {
             }
             let field = self.fields.field(goal.slot);
             if field.compare(from, here) == Ordering::Less {
-                let on = |&(_, &there): &(usize, &u32)| field.compare(here, there) == Ordering::Less;
-                let ways = links.iter().enumerate().filter(on).fold(0, |ways, (slot, _)| ways | 1 << slot);
+                let [ways, ..] = field.split(here, links);
                 (once, twice) = (once | ways, twice | once & ways);
             }
         }

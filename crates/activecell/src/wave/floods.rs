@@ -110,6 +110,32 @@ impl TileField<'_> {
         }
     }
 
+    /// Of the cells that `from` touches, given by their numbers, those that are nearer to the target, as far, and
+    /// farther: bit k is cell k of `links`. The same as [`compare`](Self::compare) for each, in one go.
+    ///
+    /// # Panics
+    /// As [`compare`](Self::compare).
+    #[inline]
+    pub fn split(&self, from: u32, links: &[u32]) -> [u32; 3] {
+        let [mut nearer, mut level] = [0, 0];
+        if self.hex {
+            let here = self.third(from);
+            for (k, &to) in links.iter().enumerate() {
+                // There: 0 to 2; from 3 here on: one more is 4 or 1, one less is 2 or 5.
+                let rise = self.third(to) + 3 - here;
+                nearer |= u32::from(rise == 2 || rise == 5) << k;
+                level |= u32::from(rise == 3) << k;
+            }
+        } else {
+            let here = self.second(from) ^ u64::from(from ^ from >> 4);
+            for (k, &to) in links.iter().enumerate() {
+                nearer |= ((self.second(to) ^ here) as u32 & 1) << k;
+            }
+        }
+        let all = !(u32::MAX << links.len());
+        [nearer, level, all & !nearer & !level]
+    }
+
     #[inline]
     const fn second(&self, number: u32) -> u64 {
         self.words[(number >> 6) as usize] >> (number & 63)
@@ -267,10 +293,21 @@ mod tests {
                 for &cell in &free {
                     assert_eq!(order.cell(order.number(cell)), cell);
                     let Some(steps) = plain.steps(cell) else { continue };
+                    let links: Vec<u32> = lattice
+                        .dirs()
+                        .map(|dir| lattice.neighbour(cell, dir))
+                        .filter(|&next| plain.steps(next).is_some())
+                        .map(|next| order.number(next))
+                        .collect();
+                    let split = field.split(order.number(cell), &links);
                     for next in lattice.dirs().map(|dir| lattice.neighbour(cell, dir)) {
                         let Some(there) = plain.steps(next) else { continue };
                         let compared = field.compare(order.number(cell), order.number(next));
                         assert_eq!(compared, there.cmp(&steps), "{lattice} {seed} {cell} {next}");
+                        let k = links.iter().position(|&link| link == order.number(next)).unwrap();
+                        let bits = [Ordering::Less, Ordering::Equal, Ordering::Greater];
+                        let expected = bits.map(|class| u32::from(class == compared));
+                        assert_eq!(split.map(|class| class >> k & 1), expected);
                         pairs += 1;
                     }
                 }
