@@ -78,8 +78,10 @@ impl<'a> Search<'a> {
     ///
     /// # Panics
     /// If there are not as many starts as goals.
-    pub fn new(arbiter: Arbiter<'a>, starts: &[u32], seed: u64) -> Self {
+    pub fn new(mut arbiter: Arbiter<'a>, starts: &[u32], seed: u64) -> Self {
         assert_eq!(starts.len(), arbiter.goals().len(), "one start and one goal a robot");
+        // Measured: below half of the cells it costs 2 to 10 % less, above it takes twice the time and costs more.
+        arbiter.shy = 2 * starts.len() < arbiter.floor().map().free_cells();
         let distance =
             |(&start, goal): (&u32, &Goal)| arbiter.fields().steps(arbiter.floor(), goal.slot, start);
         let distances: Vec<u32> = starts.iter().zip(arbiter.goals()).map(distance).collect();
