@@ -69,8 +69,8 @@ pub struct Search<'a> {
     priorities: Priorities,
     /// Nodes that may be added before the search, still without a plan, starts over.
     patience: usize,
-    /// Nodes when it does.
-    start_over: usize,
+    /// Nodes when the search last set out from the start.
+    dive_start: usize,
 }
 
 impl<'a> Search<'a> {
@@ -107,7 +107,7 @@ impl<'a> Search<'a> {
             next: vec![NONE; starts.len()],
             priorities: Priorities::default(),
             patience,
-            start_over: patience,
+            dive_start: 0,
         }
     }
 
@@ -160,6 +160,9 @@ impl<'a> Search<'a> {
         let node = self.nodes.get(number);
         if self.loss().is_some_and(|loss| node.spent + node.ahead >= loss) {
             self.open.pop();
+            if self.nodes.len() > self.dive_start {
+                self.start_over();
+            }
             return Advance::Searching;
         }
         // The distances are 0 together, at the targets.
@@ -240,7 +243,7 @@ impl<'a> Search<'a> {
         let (node, new) = self.join(from);
         if new {
             self.open.push(node);
-            if self.goal.is_none() && self.nodes.len() > self.start_over {
+            if self.goal.is_none() && self.nodes.len() - self.dive_start > self.patience {
                 self.start_over();
             }
             return Advance::Searching;
@@ -267,12 +270,15 @@ impl<'a> Search<'a> {
         (known, false)
     }
 
-    /// In a crowd a dive may go on for ever without meeting a known configuration. Then another one from the start, with
-    /// other manners and more patience, is better; what was met stays open.
+    /// Sets out from the start again; what was met stays open. With a plan, another dive with other chances finds more than
+    /// going on near the targets does. Without, in a crowd a dive may go on for ever and meet no known
+    /// configuration: the next one has other manners, and more patience.
     fn start_over(&mut self) {
-        self.arbiter.shy = !self.arbiter.shy;
-        self.patience += self.patience / 2;
-        self.start_over = self.nodes.len() + self.patience;
+        if self.goal.is_none() {
+            self.arbiter.shy = !self.arbiter.shy;
+            self.patience += self.patience / 2;
+        }
+        self.dive_start = self.nodes.len();
         self.open.push(0);
     }
 
