@@ -122,9 +122,10 @@ impl<'a> Arbiter<'a> {
     /// found; then `next` has no meaning. Without `fixed` robots a step is always found.
     ///
     /// # Panics
-    /// If `now`, `next` and the goals are not equally many, or a number is none of the floor's.
+    /// If `now`, `next`, `order` and the goals are not equally many, or a number is none of the floor's.
     pub fn step(&mut self, now: &[u32], next: &mut [u32], order: &[u32], fixed: &[(u32, u32)]) -> bool {
-        assert!(now.len() == next.len() && now.len() == self.goals.len(), "one cell and one goal a robot");
+        let robots = self.goals.len();
+        assert!([now.len(), next.len(), order.len()] == [robots; 3], "one cell, goal and priority a robot");
         next.fill(NONE);
         for (robot, &cell) in now.iter().enumerate() {
             self.cells[cell as usize].now = robot as u32;
@@ -236,8 +237,9 @@ impl<'a> Arbiter<'a> {
             let class = class & !home;
             [class & !once, class & once & !twice, class & twice]
         };
-        let (nearer, disturbing) = (parts(nearer), nearer & home);
-        let classes = [nearer, [disturbing, 0, 0], parts(level), parts(farther), [farther & home, 0, 0]];
+        let disturbing = |class: u32| [class & home, 0, 0];
+        let last = disturbing(level | farther);
+        let classes = [parts(nearer), disturbing(nearer), parts(level), parts(farther), last];
         let choices = self.orders.choose(chance, classes.into_iter().flatten());
         let Some(&wish) = self.wishes.get(robot as usize) else { return choices };
         match self.floor.links(here).iter().position(|&cell| cell == wish) {

@@ -74,7 +74,8 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// A search from the cells of `starts`. The same arbiter, starts and seed give the same plans.
+    /// A search from the cells of `starts`, which decides on the arbiter's manners itself ([`Arbiter::shy`]). The same
+    /// arbiter, starts and seed give the same plans.
     ///
     /// # Panics
     /// If there are not as many starts as goals.
