@@ -98,6 +98,43 @@ pub enum Error {
         /// What is wrong there.
         reason: &'static str,
     },
+    /// The numbers of starts, targets and free cells do not fit.
+    TeamSize {
+        /// Starts given.
+        starts: usize,
+        /// Targets given.
+        targets: usize,
+        /// Free cells of the map.
+        free: usize,
+    },
+    /// One robot of a team is at fault.
+    OfRobot {
+        /// The robot, counted from 0.
+        robot: usize,
+        /// What is wrong.
+        error: Box<Error>,
+    },
+    /// Two robots of a team have the same start.
+    SharedStart {
+        /// The robots, counted from 0.
+        robots: [usize; 2],
+        /// Their start.
+        cell: Cell,
+    },
+    /// Two robots of a team have the same target.
+    SharedTarget {
+        /// The robots, counted from 0.
+        robots: [usize; 2],
+        /// Their target.
+        cell: Cell,
+    },
+    /// The cells of a plan are not a whole number of steps.
+    PlanSize {
+        /// Robots of the plan.
+        robots: usize,
+        /// Cells given.
+        cells: usize,
+    },
 }
 
 impl fmt::Display for Error {
@@ -138,6 +175,21 @@ impl fmt::Display for Error {
             Self::BadEmbedded { offset, reason } => {
                 write!(f, "embedded map, byte {offset}: {reason}; make the file anew")
             }
+            Self::TeamSize { starts, targets, free } => write!(
+                f,
+                "a team of {starts} starts and {targets} targets on {free} free cells; give each robot one start and one target, and at most a robot a free cell"
+            ),
+            Self::OfRobot { robot, error } => write!(f, "robot {robot}: {error}"),
+            Self::SharedStart { robots: [a, b], cell } => {
+                write!(f, "robots {a} and {b} have the same start {cell}; give every robot its own")
+            }
+            Self::SharedTarget { robots: [a, b], cell } => {
+                write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
+            }
+            Self::PlanSize { robots, cells } => write!(
+                f,
+                "a plan of {cells} cells for {robots} robots; give a cell for every robot at every step, the start included"
+            ),
             // Not with hundreds of digits.
             Self::BadValue { name, value, allowed }
                 if (1e-9..1e16).contains(&value.abs()) || *value == 0.0 =>

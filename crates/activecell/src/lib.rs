@@ -34,6 +34,7 @@ pub mod control;
 mod embedded;
 mod error;
 mod error_budget;
+mod fleet;
 mod lattice;
 mod map;
 pub mod predict;
@@ -53,6 +54,7 @@ pub use calibrate::{
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
+pub use fleet::{Plan, PlanFault, Team, check_plan};
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{
     BitPlane, Clearance, Elevation, Frame, Ground, MAX_CELLS, Map, PointM, Posts, Profile, Tiling,
@@ -65,4 +67,4 @@ pub use rng::Rng;
 pub use route::{Outcome, Route, RouteFault, check_route, check_terrain_route};
 pub use rule::Rule;
 pub use search::Search;
-pub use wave::{CompactField, Field, LiveField, Terrain, WeightedField};
+pub use wave::{CompactField, Field, Floods, LiveField, Terrain, TileField, TileOrder, WeightedField};

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The core's modules; each may use those before it only.
-const LAYERS: [&str; 16] = [
+const LAYERS: [&str; 17] = [
     "rng",
     "lattice",
     "error",
@@ -24,6 +24,7 @@ const LAYERS: [&str; 16] = [
     "sense",
     "predict",
     "sim",
+    "fleet",
 ];
 const MAX_LINES: usize = 600;
 

@@ -127,8 +127,8 @@ impl Record for Seconds {
     }
     #[inline]
     fn put(&mut self, time: u32, front: &Bits) {
-        add(&mut self.reached, front, 1);
-        add(&mut self.second, front, (time - FIRST) >> 1);
+        self.reached.add(front, 1);
+        self.second.add(front, (time - FIRST) >> 1);
     }
 }
 
@@ -154,18 +154,9 @@ impl Record for Thirds {
     #[inline]
     fn put(&mut self, time: u32, front: &Bits) {
         let step = (time - FIRST) % 3;
-        add(&mut self.reached, front, 1);
-        add(&mut self.low, front, step);
-        add(&mut self.high, front, step >> 1);
-    }
-}
-
-/// Adds a front to a plane if `bit` is odd.
-#[inline]
-fn add(plane: &mut Bits, front: &Bits, bit: u32) {
-    let mask = u64::from(bit & 1).wrapping_neg();
-    for (plane, front) in plane.0.iter_mut().zip(front.0) {
-        *plane |= front & mask;
+        self.reached.add(front, 1);
+        self.low.add(front, step);
+        self.high.add(front, step >> 1);
     }
 }
 

@@ -21,6 +21,17 @@ use crate::map::Map;
 #[repr(align(32))]
 pub(super) struct Bits(pub(super) [u64; 4]);
 
+impl Bits {
+    /// Adds the cells of a front if `bit` is odd.
+    #[inline]
+    pub(super) fn add(&mut self, front: &Self, bit: u32) {
+        let mask = u64::from(bit & 1).wrapping_neg();
+        for (word, front) in self.0.iter_mut().zip(front.0) {
+            *word |= front & mask;
+        }
+    }
+}
+
 /// Columns and rows of a tile.
 pub(super) const SIDE: usize = 16;
 /// Tiles in a block: as many as a word of the map's row covers.
@@ -54,6 +65,15 @@ pub(super) struct Tiles<'a, R> {
     pub(super) records: Vec<R>,
     /// Records that were full.
     pub(super) older: Vec<R>,
+    lists: Lists,
+}
+
+/// The tiles in which the front stands and will stand, and what leaves them: kept from flood to flood.
+#[derive(Default)]
+struct Lists {
+    rim: Vec<u32>,
+    next: Vec<u32>,
+    events: Vec<Event>,
 }
 
 /// Which part of the map the wave knows: free cells are learnt when it comes near, so that what it never reaches
@@ -131,7 +151,23 @@ impl<'a, R: Record> Tiles<'a, R> {
             fronts: vec![Bits::default(); tiles],
             records: vec![R::default(); tiles],
             older: Vec::new(),
+            lists: Lists::default(),
         }
+    }
+
+    /// Learns the whole map at once, for many floods; gives the free cells, for [`refill`](Self::refill).
+    pub(super) fn learn_all(&mut self) -> Vec<Bits> {
+        for block in 0..self.ground.known.len() {
+            self.ground.learn(block / self.ground.blocks, block % self.ground.blocks, &mut self.open);
+        }
+        self.ground.known.fill([true; 2]);
+        self.open.clone()
+    }
+
+    /// Makes ready for another flood over these free cells.
+    pub(super) fn refill(&mut self, free: &[Bits]) {
+        self.open.copy_from_slice(free);
+        self.records.fill(R::default());
     }
 
     /// Tiles in a row, the rim included.
@@ -141,7 +177,13 @@ impl<'a, R: Record> Tiles<'a, R> {
 
     /// Spreads the wave from all `targets` at once.
     pub(super) fn flood(&mut self, targets: &[Cell]) {
-        let mut rim = vec![0; targets.len() + 1];
+        self.flood_from(targets, FIRST);
+    }
+
+    /// Spreads the wave from all `targets`, which are reached at time `time`.
+    pub(super) fn flood_from(&mut self, targets: &[Cell], mut time: u32) {
+        let Lists { mut rim, mut next, mut events } = std::mem::take(&mut self.lists);
+        rim.resize(rim.len().max(targets.len() + 1), 0);
         let mut len = 0;
         for target in targets {
             let (x, y) = (target.x as usize, target.y as usize);
@@ -152,8 +194,6 @@ impl<'a, R: Record> Tiles<'a, R> {
             self.fronts[tile].0[word] |= 1 << bit;
             self.open[tile].0[word] &= !(1 << bit);
         }
-        let (mut next, mut events) = (Vec::new(), Vec::new());
-        let mut time = FIRST;
         while len > 0 {
             if events.len() < len * SLOTS {
                 events.resize(2 * len * SLOTS, Event::default());
@@ -168,6 +208,7 @@ impl<'a, R: Record> Tiles<'a, R> {
             std::mem::swap(&mut rim, &mut next);
             time += 1;
         }
+        self.lists = Lists { rim, next, events };
     }
 
     /// One step of the wave in the tiles of `rim`. Fills `next` with the tiles of the next, and says how many they
@@ -179,7 +220,7 @@ impl<'a, R: Record> Tiles<'a, R> {
         next: &mut [u32],
         events: &mut [Event],
     ) -> usize {
-        let Self { ground, open, fronts, records, older } = self;
+        let Self { ground, open, fronts, records, older, .. } = self;
         let across = ground.across;
         let tiles = records.len();
         let (open, fronts, records) = (&mut open[..tiles], &mut fronts[..tiles], &mut records[..tiles]);

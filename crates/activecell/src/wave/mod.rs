@@ -3,6 +3,7 @@
 
 mod compact;
 mod flood;
+mod floods;
 mod live;
 mod padded;
 mod queue;
@@ -14,6 +15,7 @@ mod times;
 mod weighted;
 
 pub use compact::CompactField;
+pub use floods::{Floods, TileField, TileOrder};
 pub use live::LiveField;
 pub use terrain::Terrain;
 pub(crate) use tiles::{EAST, WEST, each_free};

@@ -1,0 +1,32 @@
+//! Plans for groups: one active cell per robot on a shared mosaic, all stepping at once.
+//!
+//! ```text
+//! Map + Team ──fields──▶ arbitrate, a step of all robots ──search──▶ Plan ──check──▶ ok | first fault
+//! ```
+//!
+//! [`solve`] does it all. [`Floor`] numbers the cells, [`Fields`] keeps a field of one or two bits a cell for each target,
+//! [`Arbiter`] settles one step of all robots between neighbouring cells, [`Search`] makes that complete and better
+//! with time. What a plan is, and who checks it, is in [`activecell`].
+//!
+//! ```
+//! use activecell::{Lattice, Map, Team, check_plan};
+//! use activecell_fleet::{Options, solve};
+//! let map = Map::parse(Lattice::Hex, "A..B\n.#..")?;
+//! let [a, b] = ['A', 'B'].map(|name| map.mark(name).unwrap());
+//! let team = Team::new(&map, vec![a, b], vec![b, a])?;
+//! let outcome = solve(&map, &team, &Options::default(), |_| {})?;
+//! assert_eq!(check_plan(&map, &team, &outcome.plan.unwrap()), Ok(()));
+//! # Ok::<(), activecell::Error>(())
+//! ```
+
+mod arbitrate;
+mod fields;
+mod floor;
+mod search;
+mod solve;
+
+pub use arbitrate::{Arbiter, Goal};
+pub use fields::Fields;
+pub use floor::{Floor, NONE};
+pub use search::{Advance, Search};
+pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};
