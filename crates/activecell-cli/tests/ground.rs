@@ -2,30 +2,15 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot start the command should stop")]
 
+mod common;
+
 use activecell::{Lattice, Map, Robot, Slopes, check_slopes, check_terrain_route};
 use activecell_formats::elevation::HeightOptions;
 use activecell_formats::files;
+use common::{json, run};
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
-
-/// Exit code, stdout and stderr of the command, run in `folder`.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_activecell"))
-        .args(arguments.split_whitespace())
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
-fn json(folder: &Path, arguments: &str) -> Value {
-    let (code, stdout, stderr) = run(folder, arguments);
-    assert_eq!(code, 0, "{arguments}: {stderr}");
-    serde_json::from_str(&stdout).unwrap()
-}
 
 /// A grid of text whose heights are those of a formula.
 fn grid(folder: &Path, name: &str, size: [u32; 2], cell: f64, height: impl Fn(u32, u32) -> f64) {

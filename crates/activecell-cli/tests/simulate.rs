@@ -2,27 +2,11 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot start the command should stop")]
 
+mod common;
+
+use common::{json, run};
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
-use std::process::Command;
-
-/// Exit code, stdout and stderr of the command, run in `folder`.
-fn run(folder: &Path, arguments: &str) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_activecell"))
-        .args(arguments.split_whitespace())
-        .current_dir(folder)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
-
-fn json(folder: &Path, arguments: &str) -> Value {
-    let (code, stdout, stderr) = run(folder, arguments);
-    assert!(code == 0 || code == 3, "{arguments}: {stderr}");
-    serde_json::from_str(&stdout).unwrap()
-}
 
 /// A folder with a floor and its run on each lattice.
 fn stage() -> tempfile::TempDir {
