@@ -4,8 +4,14 @@
 
 mod common;
 
-use common::{json, run};
+use common::run;
+use serde_json::Value;
 use std::fs;
+use std::path::Path;
+
+fn json(folder: &Path, arguments: &str) -> Value {
+    common::json(folder, arguments, &[0])
+}
 
 #[test]
 fn nearest_goes_as_near_as_it_can() {

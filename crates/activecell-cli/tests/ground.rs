@@ -7,10 +7,14 @@ mod common;
 use activecell::{Lattice, Map, Robot, Slopes, check_slopes, check_terrain_route};
 use activecell_formats::elevation::HeightOptions;
 use activecell_formats::files;
-use common::{json, run};
+use common::run;
 use serde_json::Value;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+fn json(folder: &Path, arguments: &str) -> Value {
+    common::json(folder, arguments, &[0])
+}
 
 /// A grid of text whose heights are those of a formula.
 fn grid(folder: &Path, name: &str, size: [u32; 2], cell: f64, height: impl Fn(u32, u32) -> f64) {

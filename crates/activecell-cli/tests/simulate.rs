@@ -4,9 +4,14 @@
 
 mod common;
 
-use common::{json, run};
+use common::run;
 use serde_json::Value;
 use std::fs;
+use std::path::Path;
+
+fn json(folder: &Path, arguments: &str) -> Value {
+    common::json(folder, arguments, &[0, 3])
+}
 
 /// A folder with a floor and its run on each lattice.
 fn stage() -> tempfile::TempDir {
