@@ -73,22 +73,22 @@ impl Map {
         let first = parity(targets[0]);
         let half = self.lattice() == Lattice::Square && targets.iter().all(|&cell| parity(cell) == first);
         let labels = if half {
-            let mut tiles = Tiles::<Seconds>::new(self);
+            let mut tiles = Tiles::<Reaching<Second>>::new(self);
             tiles.flood(targets);
             Labels::Half {
                 parity: first,
                 reached: reached(self, &tiles),
-                second: label(self, &tiles, |record| record.second),
+                second: label(self, &tiles, |record| record.labels.0),
             }
         } else {
-            let mut tiles = Tiles::<Thirds>::new(self);
+            let mut tiles = Tiles::<Reaching<Third>>::new(self);
             tiles.flood(targets);
             Labels::Thirds {
                 low: label(self, &tiles, |record| {
-                    Bits(std::array::from_fn(|i| !record.reached.0[i] | record.low.0[i]))
+                    Bits(std::array::from_fn(|i| !record.reached.0[i] | record.labels.low.0[i]))
                 }),
                 high: label(self, &tiles, |record| {
-                    Bits(std::array::from_fn(|i| !record.reached.0[i] | record.high.0[i]))
+                    Bits(std::array::from_fn(|i| !record.reached.0[i] | record.labels.high.0[i]))
                 }),
             }
         };
@@ -109,40 +109,41 @@ pub(super) fn check_targets(map: &Map, targets: &[Cell]) -> Result<(), Error> {
 
 /// Bit 1 of each cell's step.
 #[derive(Debug, Clone, Copy, Default)]
-struct Seconds {
-    /// There was a front.
-    seen: bool,
-    reached: Bits,
-    second: Bits,
-}
+pub(super) struct Second(pub(super) Bits);
 
-impl Record for Seconds {
-    #[inline]
-    fn is_full(&self, _: u32) -> bool {
-        !self.seen
-    }
-    fn renew(&mut self, _: u32, _: &mut Vec<Self>) -> bool {
-        self.seen = true;
-        true
-    }
+impl Record for Second {
     #[inline]
     fn put(&mut self, time: u32, front: &Bits) {
-        self.reached.add(front, 1);
-        self.second.add(front, (time - FIRST) >> 1);
+        self.0.add(front, (time - FIRST) >> 1);
     }
 }
 
 /// Each cell's step modulo 3.
 #[derive(Debug, Clone, Copy, Default)]
-struct Thirds {
+pub(super) struct Third {
+    pub(super) low: Bits,
+    pub(super) high: Bits,
+}
+
+impl Record for Third {
+    #[inline]
+    fn put(&mut self, time: u32, front: &Bits) {
+        let step = (time - FIRST) % 3;
+        self.low.add(front, step);
+        self.high.add(front, step >> 1);
+    }
+}
+
+/// Labels, and which cells have one.
+#[derive(Debug, Clone, Copy, Default)]
+struct Reaching<L> {
     /// There was a front.
     seen: bool,
     reached: Bits,
-    low: Bits,
-    high: Bits,
+    labels: L,
 }
 
-impl Record for Thirds {
+impl<L: Record> Record for Reaching<L> {
     #[inline]
     fn is_full(&self, _: u32) -> bool {
         !self.seen
@@ -153,10 +154,8 @@ impl Record for Thirds {
     }
     #[inline]
     fn put(&mut self, time: u32, front: &Bits) {
-        let step = (time - FIRST) % 3;
         self.reached.add(front, 1);
-        self.low.add(front, step);
-        self.high.add(front, step >> 1);
+        self.labels.put(time, front);
     }
 }
 
@@ -166,7 +165,7 @@ fn label<R: Record>(map: &Map, tiles: &Tiles<R>, plane: impl Fn(&R) -> Bits) -> 
     dense
 }
 
-fn reached(map: &Map, tiles: &Tiles<Seconds>) -> Reached {
+fn reached(map: &Map, tiles: &Tiles<Reaching<Second>>) -> Reached {
     let dense = label(map, tiles, |record| record.reached);
     let count: usize = dense.words.iter().map(|word| word.count_ones() as usize).sum();
     if count == map.free_cells() { Reached::Free(map.clone()) } else { Reached::Only(dense) }

@@ -48,9 +48,14 @@ pub(super) const FIRST: u32 = 64;
 /// What a flood keeps of the cells of a tile.
 pub(super) trait Record: Copy + Default {
     /// Whether [`renew`](Self::renew) must come first; so for the first front of a tile.
-    fn is_full(&self, time: u32) -> bool;
+    #[inline]
+    fn is_full(&self, _time: u32) -> bool {
+        false
+    }
     /// Makes room for this time; says whether this is the tile's first front.
-    fn renew(&mut self, time: u32, older: &mut Vec<Self>) -> bool;
+    fn renew(&mut self, _time: u32, _older: &mut Vec<Self>) -> bool {
+        false
+    }
     /// Notes the cells that the wave reached at this time.
     fn put(&mut self, time: u32, front: &Bits);
 }

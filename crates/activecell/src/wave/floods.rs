@@ -1,6 +1,6 @@
 //! Many floods of one map in the same memory, and their fields tile by tile: a bit or two a cell.
 
-use super::compact::check_targets;
+use super::compact::{Second, Third, check_targets};
 use super::flood::{Bits, FIRST, Record, SIDE, Tiles};
 use crate::error::Error;
 use crate::lattice::{Cell, Lattice};
@@ -226,47 +226,6 @@ impl<'a> Floods<'a> {
 fn inner<'a, R: Record>(tiles: &'a Tiles<'_, R>, order: TileOrder) -> impl Iterator<Item = &'a R> {
     let across = tiles.across();
     (1..=order.down as usize).flat_map(move |row| &tiles.records[row * across + 1..][..order.across as usize])
-}
-
-/// Bit 1 of each cell's step.
-#[derive(Debug, Clone, Copy, Default)]
-struct Second(Bits);
-
-impl Record for Second {
-    #[inline]
-    fn is_full(&self, _: u32) -> bool {
-        false
-    }
-    fn renew(&mut self, _: u32, _: &mut Vec<Self>) -> bool {
-        false
-    }
-    #[inline]
-    fn put(&mut self, time: u32, front: &Bits) {
-        self.0.add(front, (time - FIRST) >> 1);
-    }
-}
-
-/// Each cell's step modulo 3.
-#[derive(Debug, Clone, Copy, Default)]
-struct Third {
-    low: Bits,
-    high: Bits,
-}
-
-impl Record for Third {
-    #[inline]
-    fn is_full(&self, _: u32) -> bool {
-        false
-    }
-    fn renew(&mut self, _: u32, _: &mut Vec<Self>) -> bool {
-        false
-    }
-    #[inline]
-    fn put(&mut self, time: u32, front: &Bits) {
-        let step = (time - FIRST) % 3;
-        self.low.add(front, step);
-        self.high.add(front, step >> 1);
-    }
 }
 
 #[cfg(test)]
