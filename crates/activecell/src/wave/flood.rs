@@ -13,6 +13,7 @@
 //! Source: bit-parallel breadth-first search is folklore of the four-colour board games (*kogge-stone* and *dumb7*
 //! fills, Chess Programming Wiki, "Fill Algorithms").
 
+use super::tiles::transpose;
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
 
@@ -381,33 +382,4 @@ fn slanted(side: &Bits, rows: u64) -> Bits {
     let slanted = each(|i| side.0[i] & rows);
     let (up, down) = (up(&slanted), down(&slanted));
     each(|i| side.0[i] | up.0[i] | down.0[i])
-}
-
-/// Four words of four times 16 bits, transposed: from four rows of 64 cells to four tiles, or back.
-fn transpose(words: &mut [u64; 4]) {
-    for (distance, low) in [(2, 0x0000_0000_ffff_ffff), (1, 0x0000_ffff_0000_ffff)] {
-        for i in (0..4).filter(|i| i & distance == 0) {
-            let shift = distance as u32 * 16;
-            let swapped = (words[i] >> shift ^ words[i + distance]) & low;
-            words[i] ^= swapped << shift;
-            words[i + distance] ^= swapped;
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn transposing_moves_part_j_of_word_i_to_part_i_of_word_j() {
-        let part = |word: u64, j: usize| word >> (16 * j) & 0xffff;
-        let words: [u64; 4] =
-            std::array::from_fn(|i| (0..4).map(|j| ((4 * i + j) as u64) << (16 * j)).sum::<u64>());
-        let mut transposed = words;
-        transpose(&mut transposed);
-        for (i, word) in words.into_iter().enumerate() {
-            assert!((0..4).all(|j| part(transposed[j], i) == part(word, j)));
-        }
-    }
 }

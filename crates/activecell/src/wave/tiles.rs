@@ -30,17 +30,20 @@ pub(crate) fn each_free(map: &Map, mut put: impl FnMut(usize, u64)) {
     }
 }
 
-/// Eight words of eight bytes each, transposed: from eight rows of 64 cells to eight tiles.
-fn transpose(words: &mut [u64; 8]) {
-    const STAGES: [(usize, u64); 3] =
-        [(4, 0x0000_0000_ffff_ffff), (2, 0x0000_ffff_0000_ffff), (1, 0x00ff_00ff_00ff_00ff)];
-    for (distance, low) in STAGES {
-        for i in (0..8).filter(|i| i & distance == 0) {
-            let shift = distance as u32 * 8;
+/// Words of as many equal parts as there are words (4 or 8), transposed: from rows of 64 cells to tiles, or back.
+#[inline]
+pub(super) fn transpose<const N: usize>(words: &mut [u64; N]) {
+    let mut distance = N / 2;
+    while distance > 0 {
+        let shift = distance * 64 / N;
+        // The lower half of every two times `shift` bits.
+        let low = u64::MAX / ((1 << shift) + 1);
+        for i in (0..N).filter(|i| i & distance == 0) {
             let swapped = (words[i] >> shift ^ words[i + distance]) & low;
             words[i] ^= swapped << shift;
             words[i + distance] ^= swapped;
         }
+        distance /= 2;
     }
 }
 
@@ -51,11 +54,23 @@ mod tests {
 
     #[test]
     fn transposing_moves_byte_j_of_word_i_to_byte_i_of_word_j() {
-        let mut words =
+        let mut words: [u64; 8] =
             std::array::from_fn(|i| u64::from_le_bytes(std::array::from_fn(|j| (8 * i + j) as u8)));
         transpose(&mut words);
         for (i, word) in words.into_iter().enumerate() {
             assert_eq!(word.to_le_bytes(), std::array::from_fn(|j| (8 * j + i) as u8));
+        }
+    }
+
+    #[test]
+    fn transposing_moves_part_j_of_word_i_to_part_i_of_word_j() {
+        let part = |word: u64, j: usize| word >> (16 * j) & 0xffff;
+        let words: [u64; 4] =
+            std::array::from_fn(|i| (0..4).map(|j| ((4 * i + j) as u64) << (16 * j)).sum::<u64>());
+        let mut transposed = words;
+        transpose(&mut transposed);
+        for (i, word) in words.into_iter().enumerate() {
+            assert!((0..4).all(|j| part(transposed[j], i) == part(word, j)));
         }
     }
 
