@@ -117,12 +117,9 @@ fn what_cannot_be_is_told_from_what_was_not_found() {
 const RIGHT: &str = "agents=3\nmap_file=rooms.map\nsolved=1\nsoc=8\nmakespan=4\nstarts=(0,1),(5,1),(6,3),\ngoals=(2,0),(1,1),(6,2),\nsolution=\n\
     0:(0,1),(5,1),(6,3),\n1:(1,1),(4,1),(6,2),\n2:(1,0),(3,1),(6,2),\n3:(2,0),(2,1),(6,2),\n4:(2,0),(1,1),(6,2),\n";
 
-#[test]
-fn tampered_plans_are_refused_with_step_robots_and_cells() {
-    let folder = stage();
-    let path = folder.path();
-    let right = RIGHT;
-    let cases: [(&str, &str, &str, Value); 9] = [
+/// What was there, what is there instead, what the checker says, and how as JSON.
+fn tampered() -> [(&'static str, &'static str, &'static str, Value); 9] {
+    [
         (
             "2:(1,0),(3,1)",
             "2:(1,0),(3,2)",
@@ -177,10 +174,17 @@ fn tampered_plans_are_refused_with_step_robots_and_cells() {
             "robot 1 ends at (1,1), not at its target (2,1)",
             json!(["not_arrived", null, [1], [[1, 1], [2, 1]]]),
         ),
-    ];
+    ]
+}
+
+#[test]
+fn tampered_plans_are_refused_with_step_robots_and_cells() {
+    let folder = stage();
+    let path = folder.path();
+    let right = RIGHT;
     fs::write(path.join("right.txt"), right).unwrap();
     assert_eq!(run(path, "check rooms.map right.txt").0, 0);
-    for (from, to, words, expected) in cases {
+    for (from, to, words, expected) in tampered() {
         assert!(right.contains(from), "{from}");
         fs::write(path.join("plan.txt"), right.replacen(from, to, 1)).unwrap();
         let (code, stdout, stderr) = run(path, "check rooms.map plan.txt");
@@ -191,12 +195,26 @@ fn tampered_plans_are_refused_with_step_robots_and_cells() {
         assert_eq!(json!([fault["kind"], fault["step"], fault["robots"], fault["cells"]]), expected);
         assert_eq!((&report["sound"], fault["message"].as_str()), (&json!(false), Some(words)));
     }
-    // Without targets, what they do on the way still counts.
-    let outside = right.replacen("4:(2,0),(1,1),(6,2)", "4:(2,0),(1,1),(7,2)", 1);
-    let outside: String =
-        outside.lines().filter(|line| !line.starts_with("goals")).map(|line| format!("{line}\n")).collect();
-    fs::write(path.join("plan.txt"), outside).unwrap();
-    assert!(run(path, "check rooms.map plan.txt").2.contains("step 4: robot 2 is at (7,2), outside the map"));
+}
+
+#[test]
+fn without_targets_what_robots_do_on_the_way_still_counts() {
+    let folder = stage();
+    let path = folder.path();
+    let lines: Vec<&str> = RIGHT.lines().filter(|line| !line.starts_with("goals")).collect();
+    let text = lines.join("\n");
+    fs::write(path.join("plan.txt"), &text).unwrap();
+    let (code, stdout, _) = run(path, "check rooms.map plan.txt");
+    assert_eq!(
+        (code, stdout.lines().next()),
+        (0, Some("sound: 3 robots, 4 steps; nothing says where they should end"))
+    );
+    fs::write(path.join("plan.txt"), text.replacen("4:(2,0),(1,1),(6,2)", "4:(2,0),(1,1),(7,2)", 1)).unwrap();
+    let (code, _, stderr) = run(path, "check rooms.map plan.txt");
+    assert_eq!(
+        (code, stderr.as_str()),
+        (1, "activecell: plan.txt: step 4: robot 2 is at (7,2), outside the map\n")
+    );
 }
 
 #[test]
