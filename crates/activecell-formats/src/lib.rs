@@ -11,6 +11,8 @@
 //! | [`calibration`] | what a calibration found: JSON |
 //! | [`run`] | routes and runs: JSON |
 //! | [`certificate`] | certificates, in the routes' JSON |
+//! | [`plan`] | plans of groups: the text that MAPF tools share, JSON, paths |
+//! | [`fleet`] | reports on groups and their plans: JSON |
 //! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
@@ -35,7 +37,10 @@ pub mod drive_log;
 pub mod elevation;
 mod error;
 pub mod files;
+pub mod fleet;
+mod lines;
 pub mod movingai;
+pub mod plan;
 pub mod raster;
 mod read_run;
 pub mod robot;
