@@ -186,14 +186,12 @@ fn straight(
     let size = new.len();
     let (skip, rest) = (stride / 64, stride % 64);
     let [row, column] = crossed;
-    let (left, here, right) =
-        (&old[start - 1..][..size], &old[start..][..size], &old[start + 1..][..size]);
+    let (left, here, right) = (&old[start - 1..][..size], &old[start..][..size], &old[start + 1..][..size]);
     let (row_here, row_right) = (&row[start..][..size], &row[start + 1..][..size]);
     let (above, above_far) = (&old[start - skip..][..size], &old[start - skip - 1..][..size]);
     let (below, below_far) = (&old[start + skip..][..size], &old[start + skip + 1..][..size]);
     let column_here = &column[start..][..size];
-    let (column_below, column_far) =
-        (&column[start + skip..][..size], &column[start + skip + 1..][..size]);
+    let (column_below, column_far) = (&column[start + skip..][..size], &column[start + skip + 1..][..size]);
     let free = &free[..size];
     let mut any = 0;
     for i in 0..size {
@@ -201,7 +199,8 @@ fn straight(
         let east = (here[i] << 1 | left[i] >> 63) & !row_here[i];
         let west = (here[i] & !row_here[i]) >> 1 | (right[i] & !row_right[i]) << 63;
         let south = (above[i] << rest | above_far[i] >> 1 >> (63 - rest)) & !column_here[i];
-        let north = (below[i] & !column_below[i]) >> rest | (below_far[i] & !column_far[i]) << 1 << (63 - rest);
+        let north =
+            (below[i] & !column_below[i]) >> rest | (below_far[i] & !column_far[i]) << 1 << (63 - rest);
         new[i] = (new[i] | here[i] | east | west | south | north) & free[i];
         any |= new[i];
     }

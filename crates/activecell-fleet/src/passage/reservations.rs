@@ -52,6 +52,11 @@ impl Reservations {
         (steps + 1) * (1 + layout.edges()) * layout.words() * size_of::<u64>()
     }
 
+    /// The memory that they take, in bytes.
+    pub(crate) const fn bytes_kept(&self) -> usize {
+        self.planes.capacity() * size_of::<u64>()
+    }
+
     /// Where the cells lie.
     pub const fn layout(&self) -> &Layout {
         &self.layout
