@@ -23,6 +23,7 @@ mod arbitrate;
 mod fields;
 mod floor;
 mod passage;
+mod refine;
 mod search;
 mod solve;
 
@@ -30,5 +31,6 @@ pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
 pub use passage::{Layout, Passage, Reservations};
+pub use refine::Refiner;
 pub use search::{Advance, Search};
 pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};

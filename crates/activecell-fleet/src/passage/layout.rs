@@ -1,10 +1,13 @@
 //! Where the cells of a map lie in a plane of bits.
 
 use crate::floor::Floor;
-use activecell::{Cell, Dir, Lattice};
+use activecell::{Cell, Lattice};
 
 /// The layout of a plane: rows one after the other, with one bit between them that belongs to no cell, so that a move to a
 /// neighbour is the same shift for all cells of a row's parity.
+///
+/// Of two neighbours the one with the higher bit names the edge between them. Edges have kinds, a plane each: within a row,
+/// `stride` apart, and on hexagons one more or one less than that.
 #[derive(Debug, Clone)]
 pub struct Layout {
     lattice: Lattice,
@@ -14,16 +17,8 @@ pub struct Layout {
     /// Words before the first cell; as many come after the last, so that shifts read inside the plane.
     margin: usize,
     words: usize,
-}
-
-/// A move of all cells of a plane at once: of all rows on squares, of the even or the odd rows on hexagons.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Shift {
-    pub(super) dir: Dir,
-    /// The bits from a cell to where it moves.
-    pub(super) bits: i32,
-    /// The parity of the rows in which the moves end, where it matters.
-    pub(super) rows: Option<u32>,
+    /// The cells of the odd rows; only hexagons ask.
+    odd: Vec<u64>,
 }
 
 impl Layout {
@@ -32,14 +27,13 @@ impl Layout {
         let map = floor.map();
         let stride = map.width() + 1;
         let margin = stride as usize / 64 + 2;
-        let bits = stride as usize * map.height() as usize;
-        Self {
-            lattice: map.lattice(),
-            stride,
-            height: map.height(),
-            margin,
-            words: bits.div_ceil(64) + 2 * margin,
+        let words = (stride as usize * map.height() as usize).div_ceil(64) + 2 * margin;
+        let (lattice, height) = (map.lattice(), map.height());
+        let mut layout = Self { lattice, stride, height, margin, words, odd: Vec::new() };
+        if lattice == Lattice::Hex {
+            layout.odd = layout.parity(1);
         }
+        layout
     }
 
     /// The lattice of the floor.
@@ -65,11 +59,36 @@ impl Layout {
         Cell::new((at % self.stride) as i32, (at / self.stride) as i32)
     }
 
-    /// The bits from a cell to the neighbour in a direction.
+    /// The bits around one, those that stand for cells and others; as many as there are directions.
     #[inline]
-    pub const fn ahead(&self, bit: u32, dir: Dir) -> i32 {
-        let (cell, next) = (self.cell(bit), self.lattice.neighbour(self.cell(bit), dir));
-        (next.y - cell.y) * self.stride as i32 + next.x - cell.x
+    pub(super) fn around(&self, bit: u32) -> impl Iterator<Item = u32> {
+        let stride = self.stride as i32;
+        let is_odd = self.odd.get(bit as usize / 64).is_some_and(|word| word >> (bit % 64) & 1 == 1);
+        let slant = if is_odd { 1 } else { -1 };
+        let offsets = [1, -1, stride, -stride, stride + slant, -stride + slant];
+        let degree = usize::from(self.lattice.degree());
+        offsets.into_iter().take(degree).map(move |offset| bit.wrapping_add_signed(offset))
+    }
+
+    /// How many kinds of edges there are.
+    pub(super) const fn edges(&self) -> usize {
+        self.lattice.degree() as usize / 2
+    }
+
+    /// The kind of the edge between two neighbours, and the bit that names it.
+    #[inline]
+    pub(super) const fn edge(&self, a: u32, b: u32) -> (usize, u32) {
+        let kind = match a.abs_diff(b) {
+            1 => 0,
+            apart if apart == self.stride => 1,
+            _ => 2,
+        };
+        (kind, if a > b { a } else { b })
+    }
+
+    /// Bits from a cell to the one below it.
+    pub(super) const fn stride(&self) -> u32 {
+        self.stride
     }
 
     /// The words in which the rows from `first` to `last` lie; rows outside the map count for nothing.
@@ -77,27 +96,6 @@ impl Layout {
         let row = |y: i32| y.clamp(0, self.height as i32) as usize * self.stride as usize;
         let (from, to) = (row(first), row(last.saturating_add(1)));
         self.margin + from / 64..self.margin + to.div_ceil(64)
-    }
-
-    /// All moves to neighbours, as shifts.
-    pub(super) fn shifts(&self) -> Vec<Shift> {
-        let even = Cell::new(1, 2);
-        let odd = Cell::new(1, 3);
-        let shift = |dir: Dir, from: Cell, parity: bool| {
-            let to = self.lattice.neighbour(from, dir);
-            let bits = (to.y - from.y) * self.stride as i32 + to.x - from.x;
-            Shift { dir, bits, rows: parity.then_some(to.y as u32 % 2) }
-        };
-        let mut shifts = Vec::new();
-        for dir in self.lattice.dirs() {
-            let [a, b] = [shift(dir, even, true), shift(dir, odd, true)];
-            if a.bits == b.bits {
-                shifts.push(Shift { rows: None, ..a });
-            } else {
-                shifts.extend([a, b]);
-            }
-        }
-        shifts
     }
 
     /// The words that a move to a neighbour can cross.

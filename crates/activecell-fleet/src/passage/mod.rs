@@ -10,8 +10,7 @@ mod reservations;
 pub use layout::Layout;
 pub use reservations::Reservations;
 
-use activecell::Rng;
-use layout::Shift;
+use activecell::{Lattice, Rng};
 use std::ops::Range;
 
 /// Finds paths among reservations, and keeps its memory between them.
@@ -33,9 +32,8 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub struct Passage {
     layout: Layout,
-    shifts: Vec<Shift>,
-    /// The cells of the rows of each parity.
-    parity: [Vec<u64>; 2],
+    /// On hexagons, the cells of the even and the odd rows.
+    parity: Option<[Vec<u64>; 2]>,
     /// The planes reached, one a step.
     reached: Vec<u64>,
     /// The words of each plane that were written; all others mean zero.
@@ -45,19 +43,14 @@ pub struct Passage {
 impl Passage {
     /// For planes of this layout.
     pub fn new(layout: &Layout) -> Self {
-        let parity = [0, 1].map(|parity| layout.parity(parity));
-        Self {
-            shifts: layout.shifts(),
-            parity,
-            layout: layout.clone(),
-            reached: Vec::new(),
-            written: Vec::new(),
-        }
+        let is_hex = layout.lattice() == Lattice::Hex;
+        let parity = is_hex.then(|| [0, 1].map(|parity| layout.parity(parity)));
+        Self { parity, layout: layout.clone(), reached: Vec::new(), written: Vec::new() }
     }
 
     /// The memory that it keeps, in bytes.
     pub fn bytes(&self) -> usize {
-        (self.reached.capacity() + 2 * self.layout.words()) * size_of::<u64>()
+        (self.reached.capacity() + 3 * self.layout.words()) * size_of::<u64>()
     }
 
     /// The path from a cell at step 0 that comes soonest to a target that it can keep for ever: after all others have
@@ -71,11 +64,13 @@ impl Passage {
         latest: usize,
         rng: &mut Rng,
     ) -> Option<Vec<u32>> {
-        let keeps = taken.free_from(to)?;
-        let distance = self.layout.lattice().distance(self.layout.cell(from), self.layout.cell(to)) as usize;
-        if keeps.max(distance) > latest {
+        let [start, end] = [from, to].map(|bit| self.layout.cell(bit));
+        let distance = self.layout.lattice().distance(start, end) as usize;
+        let keeps = taken.free_from(to, distance)?;
+        if keeps > latest {
             return None;
         }
+        let (start, end) = (start.y, end.y);
         self.start(from);
         let mut step = 0;
         while step < keeps || !self.reaches(step, to) {
@@ -83,7 +78,6 @@ impl Passage {
                 return None;
             }
             let far = latest - step - 1;
-            let [start, end] = [from, to].map(|bit| self.layout.cell(bit).y);
             let (out, back) = (step as i32 + 1, far as i32);
             let rows = self.layout.rows((start - out).max(end - back), (start + out).min(end + back));
             if !self.spread(taken, step, rows) {
@@ -134,21 +128,18 @@ impl Passage {
         let around = words.start.saturating_sub(reach)..(words.end + reach).min(size);
         zero_outside(old, &around, &before);
         let new = &mut new[words.clone()];
-        new.copy_from_slice(&old[words.clone()]);
-        for shift in &self.shifts {
-            let rows = shift.rows.map(|parity| &self.parity[parity as usize][words.clone()]);
-            let back = self.layout.lattice().opposite(shift.dir);
-            let against = taken.moving(step, back).map(|plane| &plane[words.clone()]);
-            arrive(old, words.start, shift.bits, rows, against, new);
+        new.fill(0);
+        let stride = self.layout.stride() as usize;
+        if let Some([even, odd]) = &self.parity {
+            let crossed = taken.crossed(step, 2);
+            slant(old, crossed, odd, words.start, stride - 1, new);
+            slant(old, crossed, even, words.start, stride + 1, new);
         }
-        let mut any = 0;
-        for (new, &free) in new.iter_mut().zip(&taken.free(step + 1)[words.clone()]) {
-            *new &= free;
-            any |= *new;
-        }
+        let crossed = [0, 1].map(|kind| taken.crossed(step, kind));
+        let any = straight(old, crossed, &taken.free(step + 1)[words.clone()], words.start, stride, new);
         self.written.truncate(step + 1);
         self.written.push(words);
-        any != 0
+        any
     }
 
     /// A path to a cell that is reached at a step, backwards by chance.
@@ -161,12 +152,7 @@ impl Passage {
         for step in (0..step).rev() {
             let mut ways = [here; 7];
             let mut count = 0;
-            let around = self
-                .layout
-                .lattice()
-                .dirs()
-                .map(|dir| here.wrapping_add_signed(self.layout.ahead(here, dir)));
-            for from in around.chain([here]) {
+            for from in self.layout.around(here).chain([here]) {
                 if self.reaches(step, from) && taken.allows(step, from, here) {
                     ways[count] = from;
                     count += 1;
@@ -186,33 +172,57 @@ fn zero_outside(plane: &mut [u64], range: &Range<usize>, keep: &Range<usize>) {
     plane[keep.end.clamp(range.start, range.end)..range.end].fill(0);
 }
 
-/// Adds to `new` the cells of `old` moved by `bits`, where the rows are right and nobody comes against them.
-fn arrive(
+/// Adds to `new`, whose first word is `start` in the planes, the cells of `old` and all that they reach within rows and
+/// `stride` apart, where nobody crosses; then leaves only what is free. Whether anything is left.
+#[inline]
+fn straight(
     old: &[u64],
+    crossed: [&[u64]; 2],
+    free: &[u64],
     start: usize,
-    bits: i32,
-    rows: Option<&[u64]>,
-    against: Option<&[u64]>,
+    stride: usize,
     new: &mut [u64],
-) {
-    let (skip, rest) = ((bits.unsigned_abs() / 64) as usize, bits.unsigned_abs() % 64);
+) -> bool {
     let size = new.len();
-    // A shift by 64 is one by 1 and 63, so that a rest of 0 needs no branch.
-    let forward = bits >= 0;
-    let (near, far) =
-        if forward { (start - skip, start - skip - 1) } else { (start + skip, start + skip + 1) };
-    let (near, far) = (&old[near..near + size], &old[far..far + size]);
-    let moved = |i: usize| {
-        if forward {
-            near[i] << rest | far[i] >> 1 >> (63 - rest)
-        } else {
-            near[i] >> rest | far[i] << 1 << (63 - rest)
-        }
-    };
-    match (rows, against) {
-        (None, None) => (0..size).for_each(|i| new[i] |= moved(i)),
-        (None, Some(against)) => (0..size).for_each(|i| new[i] |= moved(i) & !against[i]),
-        (Some(rows), None) => (0..size).for_each(|i| new[i] |= moved(i) & rows[i]),
-        (Some(rows), Some(against)) => (0..size).for_each(|i| new[i] |= moved(i) & rows[i] & !against[i]),
+    let (skip, rest) = (stride / 64, stride % 64);
+    let [row, column] = crossed;
+    let (left, here, right) = (&old[start - 1..][..size], &old[start..][..size], &old[start + 1..][..size]);
+    let (row_here, row_right) = (&row[start..][..size], &row[start + 1..][..size]);
+    let (above, above_far) = (&old[start - skip..][..size], &old[start - skip - 1..][..size]);
+    let (below, below_far) = (&old[start + skip..][..size], &old[start + skip + 1..][..size]);
+    let column_here = &column[start..][..size];
+    let (column_below, column_far) = (&column[start + skip..][..size], &column[start + skip + 1..][..size]);
+    let free = &free[..size];
+    let mut any = 0;
+    for i in 0..size {
+        // A shift by 64 is one by 1 and 63, so that a rest of 0 needs no branch.
+        let east = (here[i] << 1 | left[i] >> 63) & !row_here[i];
+        let west = (here[i] & !row_here[i]) >> 1 | (right[i] & !row_right[i]) << 63;
+        let south = (above[i] << rest | above_far[i] >> 1 >> (63 - rest)) & !column_here[i];
+        let north =
+            (below[i] & !column_below[i]) >> rest | (below_far[i] & !column_far[i]) << 1 << (63 - rest);
+        new[i] = (new[i] | here[i] | east | west | south | north) & free[i];
+        any |= new[i];
+    }
+    any != 0
+}
+
+/// Adds to `new` the cells that those of `old` reach over edges `bits` apart, of which the higher end is in `rows`, where
+/// nobody crosses.
+#[inline]
+fn slant(old: &[u64], crossed: &[u64], rows: &[u64], start: usize, bits: usize, new: &mut [u64]) {
+    let size = new.len();
+    let (skip, rest) = (bits / 64, bits % 64);
+    let (above, above_far) = (&old[start - skip..][..size], &old[start - skip - 1..][..size]);
+    let (below, below_far) = (&old[start + skip..][..size], &old[start + skip + 1..][..size]);
+    let (crossed_here, rows_here) = (&crossed[start..][..size], &rows[start..][..size]);
+    let (crossed_below, crossed_far) =
+        (&crossed[start + skip..][..size], &crossed[start + skip + 1..][..size]);
+    let (rows_below, rows_far) = (&rows[start + skip..][..size], &rows[start + skip + 1..][..size]);
+    for i in 0..size {
+        let south = (above[i] << rest | above_far[i] >> 1 >> (63 - rest)) & !crossed_here[i] & rows_here[i];
+        let north = (below[i] & !crossed_below[i] & rows_below[i]) >> rest
+            | (below_far[i] & !crossed_far[i] & rows_far[i]) << 1 << (63 - rest);
+        new[i] |= south | north;
     }
 }

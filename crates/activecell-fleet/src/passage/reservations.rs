@@ -2,10 +2,9 @@
 
 use super::layout::Layout;
 use crate::floor::Floor;
-use activecell::Dir;
 
-/// The paths of robots as planes of bits, one set of planes a step: the cells that are still free, and for each
-/// direction the cells from which a robot moves that way. No two robots may take the same cell or move.
+/// The paths of robots as planes of bits, one set of planes a step: the cells that are still free, and for each kind of
+/// edge the edges that a robot crosses, either way. No two robots may take the same cell or edge.
 ///
 /// A path has a cell for each step from 0 on, as bits of the [`Layout`]; after its end the robot rests in its last cell.
 /// Steps are kept from 0 to a last one; what holds there holds for ever after.
@@ -29,7 +28,7 @@ use activecell::Dir;
 pub struct Reservations {
     layout: Layout,
     steps: usize,
-    /// Planes of a step: one of free cells, one for each direction.
+    /// Planes of a step: one of free cells, one for each kind of edge.
     kinds: usize,
     planes: Vec<u64>,
 }
@@ -38,7 +37,7 @@ impl Reservations {
     /// Nothing taken but the obstacles, for steps from 0 to `steps`.
     pub fn new(floor: &Floor, steps: usize) -> Self {
         let layout = Layout::new(floor);
-        let kinds = 1 + usize::from(layout.lattice().degree());
+        let kinds = 1 + layout.edges();
         let free = layout.plane(floor.map().free());
         let mut planes = vec![0; (steps + 1) * kinds * layout.words()];
         for step in planes.chunks_exact_mut(kinds * layout.words()) {
@@ -50,7 +49,12 @@ impl Reservations {
     /// The memory that reservations for this floor take, in bytes.
     pub fn bytes(floor: &Floor, steps: usize) -> usize {
         let layout = Layout::new(floor);
-        (steps + 1) * (1 + usize::from(layout.lattice().degree())) * layout.words() * size_of::<u64>()
+        (steps + 1) * (1 + layout.edges()) * layout.words() * size_of::<u64>()
+    }
+
+    /// The memory that they take, in bytes.
+    pub(crate) const fn bytes_kept(&self) -> usize {
+        self.planes.capacity() * size_of::<u64>()
     }
 
     /// Where the cells lie.
@@ -63,37 +67,33 @@ impl Reservations {
         self.steps
     }
 
-    /// Takes the cells and moves of a path.
+    /// Takes the cells and edges of a path.
     ///
     /// # Panics
     /// If the path has no cell or leaves the layout.
     pub fn reserve(&mut self, path: &[u32]) {
-        self.mark(path, true);
+        self.mark(path.iter().copied(), true);
     }
 
-    /// Gives the cells and moves of a path back.
+    /// Gives the cells and edges of a path back.
     ///
     /// # Panics
     /// As [`Self::reserve`].
     pub fn release(&mut self, path: &[u32]) {
-        self.mark(path, false);
+        self.mark(path.iter().copied(), false);
     }
 
-    fn mark(&mut self, path: &[u32], taken: bool) {
-        let last = *path.last().expect("a path has a cell");
+    pub(crate) fn mark(&mut self, mut path: impl Iterator<Item = u32>, taken: bool) {
+        let mut here = path.next().expect("a path has a cell");
         for step in 0..=self.steps {
-            let here = path.get(step).copied().unwrap_or(last);
-            let next = path.get(step + 1).copied().unwrap_or(last);
             self.set(step, 0, here, !taken);
+            let next = path.next().unwrap_or(here);
             if here != next && step < self.steps {
-                let dir = self.dir(here, next).expect("a path leads to neighbours");
-                self.set(step, 1 + dir.index(), here, taken);
+                let (kind, edge) = self.layout.edge(here, next);
+                self.set(step, 1 + kind, edge, taken);
             }
+            here = next;
         }
-    }
-
-    fn dir(&self, from: u32, to: u32) -> Option<Dir> {
-        self.layout.lattice().dir_between(self.layout.cell(from), self.layout.cell(to))
     }
 
     #[inline]
@@ -117,20 +117,21 @@ impl Reservations {
 
     /// Whether a robot may go from a cell at `step` to the same or a neighbouring cell at the next: that cell is free then,
     /// and nobody comes the other way.
+    #[inline]
     pub fn allows(&self, step: usize, from: u32, to: u32) -> bool {
-        let swaps = || {
-            let back = self.dir(to, from);
-            step < self.steps && back.is_some_and(|back| self.get(step, 1 + back.index(), to))
-        };
-        !self.is_taken(step + 1, to) && (from == to || !swaps())
+        if self.is_taken(step + 1, to) {
+            return false;
+        }
+        let (kind, edge) = self.layout.edge(from, to);
+        from == to || !self.get(step, 1 + kind, edge)
     }
 
-    /// The first step from which on a cell is free for ever; `None` if it is taken at the last step.
-    pub fn free_from(&self, bit: u32) -> Option<usize> {
-        let last_taken = (0..=self.steps).rev().find(|&step| self.is_taken(step, bit));
+    /// The first step, from `least` on, from which on a cell is free for ever; `None` if it is taken at the last step.
+    pub fn free_from(&self, bit: u32, least: usize) -> Option<usize> {
+        let last_taken = (least..=self.steps.max(least)).rev().find(|&step| self.is_taken(step, bit));
         match last_taken {
-            None => Some(0),
-            Some(step) if step == self.steps => None,
+            None => Some(least),
+            Some(step) if step >= self.steps => None,
             Some(step) => Some(step + 1),
         }
     }
@@ -138,14 +139,17 @@ impl Reservations {
     /// The cells that are free at a step.
     #[inline]
     pub(super) fn free(&self, step: usize) -> &[u64] {
-        &self.planes[step.min(self.steps) * self.kinds * self.layout.words()..][..self.layout.words()]
+        self.plane(step, 0)
     }
 
-    /// The cells from which robots move in a direction at a step; `None` where none moves any more.
+    /// The edges of a kind that are crossed after a step; none after the last.
     #[inline]
-    pub(super) fn moving(&self, step: usize, dir: Dir) -> Option<&[u64]> {
+    pub(super) fn crossed(&self, step: usize, kind: usize) -> &[u64] {
+        self.plane(step, 1 + kind)
+    }
+
+    fn plane(&self, step: usize, plane: usize) -> &[u64] {
         let words = self.layout.words();
-        let at = (step * self.kinds + 1 + dir.index()) * words;
-        (step < self.steps).then(|| &self.planes[at..at + words])
+        &self.planes[(step.min(self.steps) * self.kinds + plane) * words..][..words]
     }
 }
