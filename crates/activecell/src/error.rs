@@ -128,6 +128,15 @@ pub enum Error {
         /// Their target.
         cell: Cell,
     },
+    /// A connected part of the floor has more targets than robots.
+    TooFewRobots {
+        /// A target in it that would get no robot.
+        cell: Cell,
+        /// Robots that start in it.
+        robots: usize,
+        /// Targets in it.
+        targets: usize,
+    },
     /// The cells of a plan are not a whole number of steps.
     PlanSize {
         /// Robots of the plan.
@@ -185,6 +194,14 @@ impl fmt::Display for Error {
             }
             Self::SharedTarget { robots: [a, b], cell } => {
                 write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
+            }
+            Self::TooFewRobots { cell, robots, targets } => {
+                let s = if *robots == 1 { "" } else { "s" };
+                let of = if *targets == 1 { "1 target" } else { &format!("{targets} targets") };
+                write!(
+                    f,
+                    "the part of the floor around {cell} has {robots} robot{s} for {of}; give it a robot for each target"
+                )
             }
             Self::PlanSize { robots, cells } => write!(
                 f,

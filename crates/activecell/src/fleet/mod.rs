@@ -7,6 +7,7 @@
 //!
 //! Source of the model: R. Stern et al., *Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks*, `SoCS` 2019.
 
+mod assign;
 mod check;
 mod plan;
 mod team;

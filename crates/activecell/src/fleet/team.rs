@@ -113,7 +113,7 @@ impl Team {
 }
 
 /// Two that have the same cell: the first that meets it again, and who had it before.
-fn shared(cells: &[Cell]) -> Option<([usize; 2], Cell)> {
+pub(super) fn shared(cells: &[Cell]) -> Option<([usize; 2], Cell)> {
     let mut owners = BTreeMap::new();
     cells.iter().enumerate().find_map(|(robot, &cell)| {
         let before = owners.insert(cell, robot)?;
