@@ -9,8 +9,10 @@
 
 mod check;
 mod plan;
+pub mod schedule;
 mod team;
 
 pub use check::{PlanFault, check_plan};
 pub use plan::Plan;
+pub use schedule::{Schedule, check_schedule};
 pub use team::Team;
