@@ -11,6 +11,7 @@
 //! | [`calibration`] | what a calibration found: JSON |
 //! | [`run`] | routes and runs: JSON |
 //! | [`certificate`] | certificates, in the routes' JSON |
+//! | [`plan`] | plans of groups: the text that MAPF tools share, JSON, paths |
 //! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
@@ -35,7 +36,9 @@ pub mod drive_log;
 pub mod elevation;
 mod error;
 pub mod files;
+mod lines;
 pub mod movingai;
+pub mod plan;
 pub mod raster;
 mod read_run;
 pub mod robot;

@@ -2,7 +2,7 @@
 
 use super::{NONE, Schedule};
 use crate::error::Error;
-use crate::fleet::{Plan, Team, check_plan};
+use crate::fleet::{Plan, check_moves};
 use crate::map::Map;
 
 impl Schedule {
@@ -11,13 +11,9 @@ impl Schedule {
     /// Takes time for robots × steps and, while it runs, 8 bytes for each cell of the map.
     ///
     /// # Errors
-    /// As [`Team::new`], of the plan's first and last cells; [`Error::BadPlan`] with what
-    /// [`check_plan`](crate::check_plan) finds; [`Error::BadPlan`] if robots and moves are more than 2³² − 1.
+    /// [`Error::BadPlan`] with what [`check_moves`] finds, or if robots and moves are more than 2³² − 2.
     pub fn new(map: &Map, plan: &Plan) -> Result<Self, Error> {
-        let ends = [plan.row(0), plan.row(plan.steps())].map(<[_]>::to_vec);
-        let [starts, targets] = ends;
-        let team = Team::new(map, starts, targets)?;
-        check_plan(map, &team, plan).map_err(|fault| Error::BadPlan { reason: fault.to_string() })?;
+        check_moves(map, plan).map_err(|fault| Error::BadPlan { reason: fault.to_string() })?;
         let first = first_visits(plan)?;
         let visits = first[plan.robots()] as usize;
         let mut schedule = Self {
