@@ -12,6 +12,7 @@
 //! | [`run`] | routes and runs: JSON |
 //! | [`certificate`] | certificates, in the routes' JSON |
 //! | [`plan`] | plans of groups: the text that MAPF tools share, JSON, paths |
+//! | [`fleet`] | reports on groups and their plans: JSON |
 //! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
@@ -36,6 +37,7 @@ pub mod drive_log;
 pub mod elevation;
 mod error;
 pub mod files;
+pub mod fleet;
 mod lines;
 pub mod movingai;
 pub mod plan;

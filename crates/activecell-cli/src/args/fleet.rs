@@ -60,7 +60,7 @@ pub(crate) struct FleetArgs {
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example:
-  activecell check maps/warehouse.map maps/warehouse-plan.txt --scen maps/warehouse.scen
+  activecell check maps/warehouse.map maps/warehouse-plan.json --scen maps/warehouse.scen
 
 Exit codes: 0 the plan is sound, 1 it is not.")]
 pub(crate) struct CheckArgs {
