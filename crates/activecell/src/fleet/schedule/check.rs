@@ -109,7 +109,7 @@ pub fn check_schedule(map: &Map, plan: &Plan, schedule: &Schedule) -> Result<(),
         let leaving = schedule.visit(other, left + 1);
         let in_step = leaving.step == step as usize;
         let swap = in_step && leaving.cell == schedule.visit(robot, visit - 1).cell;
-        if leaving.step > step as usize || found.in_step != in_step || swap {
+        if leaving.step > step as usize || found.bend_deg.is_some() != in_step || swap {
             return Err(backwards);
         }
     }

@@ -52,8 +52,9 @@ pub struct Visit {
     /// Who is in this cell before: the robot, and the number of its visit, from 0. The robot itself, if it comes back and
     /// nobody was there meanwhile; `None` if the cell was never used.
     pub after: Option<(usize, usize)>,
-    /// Whether the plan lets that robot leave in the very step in which this one comes: they go in step.
-    pub in_step: bool,
+    /// If the plan lets that robot leave in the very step in which this one comes, so that they go in step: by how much it
+    /// turns off from the way of this one, in degrees, 0 to 120.
+    pub bend_deg: Option<i32>,
 }
 
 /// A plan without its clock: the cells that each robot visits, and the order in which each cell is visited.
@@ -175,7 +176,7 @@ impl Schedule {
             cell: self.cell(visit),
             step: self.steps[visit as usize] as usize,
             after: (before != NONE).then(|| self.named(before)),
-            in_step: self.is_in_step(visit),
+            bend_deg: self.is_in_step(visit).then(|| self.bend_deg(visit)),
         }
     }
 

@@ -139,6 +139,14 @@ impl<'a> Runner<'a> {
         self.arrived == self.robots.len()
     }
 
+    /// The revolutions since the start with which a robot is at the centre of one of its visits, counted from 0.
+    ///
+    /// # Panics
+    /// If there is no such robot; what a visit that it does not have gives is not said.
+    pub fn revolutions(&self, robot: usize, visit: usize) -> f64 {
+        self.centres[self.schedule.first[robot] as usize + visit]
+    }
+
     /// The room that robots leave each other.
     pub const fn spacing(&self) -> Spacing {
         self.spacing
