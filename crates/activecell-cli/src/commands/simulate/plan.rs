@@ -138,15 +138,16 @@ fn report(
 fn text(report: &ExecutionReport) -> String {
     let ExecutionReport { trials, robots, moves, rings, planned_makespan, makespan, .. } = report;
     let figures = |of: Distribution| {
-        let Distribution { mean, median, p95, most } = of;
-        format!("mean {mean:.1} steps, median {median:.1}, 95 % below {p95:.1}, most {most:.1}")
+        let steps = |steps: f64| format!("{steps:.1}").replace("-0.0", "0.0");
+        let [mean, median, p95, most] = [of.mean, of.median, of.p95, of.most].map(steps);
+        format!("mean {mean} steps, median {median}, 95 % below {p95}, most {most}")
     };
     let makespan = match trials {
         1 => format!("{:.1} steps", makespan.most),
         _ => figures(*makespan),
     };
     format!(
-        "plan: {robots} robots, {moves} moves, {}; executed {}\narrived        all, always; no two robots touched\nmakespan       planned {planned_makespan} steps; {makespan}\nlate           {}\nheld up        {}\nwaited         {}\n",
+        "plan: {robots} robots, {moves} moves, {}; executed {}\narrived        all, without a collision\nmakespan       planned {planned_makespan} steps; {makespan}\nlate           {}\nheld up        {}\nwaited         {}\n",
         counted(*rings as u64, "ring"),
         if *trials == 1 { "once".to_owned() } else { format!("{trials} times") },
         figures(report.late),
