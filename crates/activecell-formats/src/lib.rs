@@ -14,6 +14,7 @@
 //! | [`plan`] | plans of groups: the text that MAPF tools share, JSON, paths |
 //! | [`fleet`] | reports on groups and their plans: JSON |
 //! | [`lorr`] | lifelong tasks of the League of Robot Runners: JSON, lists, CSV |
+//! | [`schedule`] | schedules of plans, and what their execution came to: JSON |
 //! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
@@ -48,6 +49,7 @@ mod read_run;
 pub mod robot;
 pub mod ros;
 pub mod run;
+pub mod schedule;
 pub mod trace;
 
 pub use error::{Error, Place};

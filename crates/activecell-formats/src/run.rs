@@ -92,6 +92,24 @@ pub struct WaypointReport {
     pub turn_ticks: [i64; 2],
 }
 
+impl WaypointReport {
+    /// Of all entries of a program.
+    pub(crate) fn all(program: &Program, robot: &Robot, map: &Map) -> Vec<Self> {
+        let ticks = program.ticks(robot);
+        let reports = program.waypoints.iter().zip(ticks).map(|(waypoint, ticks)| Self {
+            x: waypoint.cell.x,
+            y: waypoint.cell.y,
+            turn_deg: waypoint.turn_deg,
+            revolutions: waypoint.revolutions,
+            climb_m: map.elevation().map(|_| waypoint.climb_m),
+            turn_revolutions: waypoint.turn_revolutions,
+            run_ticks: ticks.run,
+            turn_ticks: ticks.turn,
+        });
+        reports.collect()
+    }
+}
+
 /// Computing times.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub struct Seconds {
@@ -116,18 +134,7 @@ impl RouteReport {
         let length_m = route.steps() as f64 * map.frame().cell_m;
         let arrived = route.outcome() == Outcome::Arrived;
         let effort = if arrived { program.effort(robot) } else { Effort::default() };
-        let ticks = program.ticks(robot);
-        let waypoints = program.waypoints.iter().zip(ticks).map(|(waypoint, ticks)| WaypointReport {
-            x: waypoint.cell.x,
-            y: waypoint.cell.y,
-            turn_deg: waypoint.turn_deg,
-            revolutions: waypoint.revolutions,
-            climb_m: map.elevation().map(|_| waypoint.climb_m),
-            turn_revolutions: waypoint.turn_revolutions,
-            run_ticks: ticks.run,
-            turn_ticks: ticks.turn,
-        });
-        let waypoints: Vec<WaypointReport> = waypoints.collect();
+        let waypoints = WaypointReport::all(program, robot, map);
         let uneven = map.elevation().is_some();
         let ground_m = map.ground_m(route.cells());
         let steps = route.cells().windows(2).map(|pair| map.profile_or_flat(pair[0], pair[1]));

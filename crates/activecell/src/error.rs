@@ -144,6 +144,11 @@ pub enum Error {
         /// Cells given.
         cells: usize,
     },
+    /// A plan that breaks the rules.
+    BadPlan {
+        /// What is wrong, where.
+        reason: String,
+    },
 }
 
 impl fmt::Display for Error {
@@ -207,6 +212,7 @@ impl fmt::Display for Error {
                 f,
                 "a plan of {cells} cells for {robots} robots; give a cell for every robot at every step, the start included"
             ),
+            Self::BadPlan { reason } => write!(f, "the plan breaks the rules: {reason}"),
             // Not with hundreds of digits.
             Self::BadValue { name, value, allowed }
                 if (1e-9..1e16).contains(&value.abs()) || *value == 0.0 =>

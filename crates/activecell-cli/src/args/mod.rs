@@ -1,6 +1,7 @@
 //! The command line: every option and its help.
 
 mod calibrate;
+mod delays;
 mod fleet;
 mod ground;
 mod place;
@@ -9,6 +10,7 @@ mod simulate;
 use activecell::{Lattice, Rule};
 pub(crate) use calibrate::CalibrateArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use delays::DelayArgs;
 pub(crate) use fleet::{CheckArgs, FleetArgs};
 pub(crate) use ground::GroundArgs;
 pub(crate) use place::{Place, heading};

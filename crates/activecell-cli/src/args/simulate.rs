@@ -1,34 +1,39 @@
 //! The options of `activecell simulate`.
 
+use super::DelayArgs;
 use activecell::Cell;
 use activecell::sim::Visit;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
 
-/// Drive a saved run in a world with errors, and say where the robot really ended
+/// Drive a saved run in a world with errors, or execute a plan with delays
 ///
 /// The world is the run's map unless --missing, --world or --appear say otherwise. In the mode offline the robot
 /// drives the program M and asks no sensor; in the mode task its sensors correct the way, find what the map does not
 /// tell, and the run's rule leads on from there. The same seed gives the same result on any number of threads.
+///
+/// A plan for many robots (of `fleet --save`, or of another MAPF tool) is executed with delays: each robot is let into its
+/// next cell by what the others report, so that whoever is late, none collide and all arrive.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples (maps/office-run.json is what `activecell route maps/office.yaml … --save` wrote):
   activecell simulate maps/office-run.json --trials 1000
   activecell simulate maps/office-run.json --mode task --missing 0.1 --picture way.svg --picture way.gif
   activecell simulate maps/office-run.json --mode task --robot maps/quick.toml --movers 3 --picture way.gif
-  activecell simulate maps/office-run.json --mode task --appear 7,13@10..40 --save trace.json")]
+  activecell simulate maps/office-run.json --mode task --appear 7,13@10..40 --save trace.json
+  activecell simulate maps/warehouse-plan.json --delay-chance 0.1 --max-delay 10 --stop 3@5:50 --trials 100")]
 pub(crate) struct SimulateArgs {
-    /// A file of `route --save`
-    #[arg(value_name = "RUN.json")]
+    /// A file of `route --save`, or a plan
+    #[arg(value_name = "RUN.json|PLAN")]
     pub(crate) run: PathBuf,
-    /// Another robot than the run's
+    /// Another robot than the run's; the robots of a plan [default there: bodies of 0.3 cells, 0.2 on hexagons]
     #[arg(long, value_name = "FILE.toml")]
     pub(crate) robot: Option<PathBuf>,
     /// The program alone, or corrected by sensors
     #[arg(long, value_enum, default_value_t)]
     pub(crate) mode: ModeArg,
-    /// How often it is driven [default: 1000 offline, 1 task]
+    /// How often it is driven [default: 1000 offline, 1 task, 1 of a plan]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     pub(crate) trials: Option<u32>,
     /// Chance
@@ -61,6 +66,24 @@ pub(crate) struct SimulateArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) delays: DelayArgs,
+}
+
+impl SimulateArgs {
+    /// The first option that is given and that only runs have.
+    pub(crate) fn given_for_runs(&self) -> Option<&'static str> {
+        let options = [
+            ("--mode", self.mode != ModeArg::default()),
+            ("--missing", self.missing.is_some()),
+            ("--world", self.world.is_some()),
+            ("--appear", !self.appear.is_empty()),
+            ("--movers", self.movers > 0),
+            ("--save", self.save.is_some()),
+            ("--picture", !self.picture.is_empty()),
+        ];
+        options.into_iter().find_map(|(name, given)| given.then_some(name))
+    }
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]

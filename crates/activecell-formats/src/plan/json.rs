@@ -54,6 +54,10 @@ struct Robot {
     moves: String,
 }
 
+pub(super) fn is_plan(bytes: &[u8]) -> bool {
+    serde_json::from_slice(bytes).is_ok_and(|kind: Kind| kind.activecell == "plan")
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
     let kind: Kind = serde_json::from_slice(bytes).map_err(|error| not_json(&error))?;
     if kind.activecell != "plan" {

@@ -175,6 +175,22 @@ pub fn read_plan(bytes: &[u8]) -> Result<PlanFile, Error> {
     }
 }
 
+/// Whether bytes are meant as a plan file in one of the formats, sound or not.
+///
+/// ```
+/// use activecell_formats::plan::is_plan;
+/// assert!(is_plan(b"agents=1\nsolution=\n0:(1,0),") && is_plan(b"{\"activecell\": \"plan\", \"version\": 1}"));
+/// assert!(!is_plan(b"{\"activecell\": \"run\", \"version\": 1}") && !is_plan(b"..#\n..."));
+/// ```
+pub fn is_plan(bytes: &[u8]) -> bool {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    if bytes.starts_with(b"{") {
+        return json::is_plan(bytes);
+    }
+    let solution = b"solution=";
+    bytes.starts_with(b"Agent ") || bytes.windows(solution.len()).any(|window| window == solution)
+}
+
 /// Memory for all cells of a plan, none if there are no robots; refused if they are too many, before it is taken.
 fn room(robots: usize, steps: usize) -> Result<Vec<Cell>, Error> {
     if robots == 0 {

@@ -10,8 +10,10 @@
 mod assign;
 mod check;
 mod plan;
+pub mod schedule;
 mod team;
 
 pub use check::{PlanFault, check_moves, check_plan};
 pub use plan::Plan;
+pub use schedule::{Schedule, check_schedule};
 pub use team::Team;

@@ -56,6 +56,24 @@ pub struct Route {
 }
 
 impl Route {
+    /// The route along given cells, from the first to the last.
+    ///
+    /// # Errors
+    /// The first [`RouteFault`], as of [`check_route`].
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice, Map, Route};
+    /// let map = Map::parse(Lattice::Square, "..\n..")?;
+    /// let route = Route::through(&map, [(0, 0), (1, 0), (1, 1)].map(|(x, y)| Cell::new(x, y)).to_vec())?;
+    /// assert_eq!((route.steps(), route.turns()), (2, vec![Cell::new(1, 0)]));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn through(map: &Map, cells: Vec<Cell>) -> Result<Self, RouteFault> {
+        let ends = [cells.first(), cells.last()].map(|cell| cell.copied().unwrap_or_default());
+        check_route(map, &cells, ends[0], ends[1])?;
+        Ok(Self { lattice: map.lattice(), outcome: Outcome::Arrived, cells, cycle: Vec::new() })
+    }
+
     /// The lattice.
     pub const fn lattice(&self) -> Lattice {
         self.lattice
