@@ -22,11 +22,15 @@
 mod arbitrate;
 mod fields;
 mod floor;
+mod passage;
+mod refine;
 mod search;
 mod solve;
 
 pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
+pub use passage::{Layout, Passage, Reservations};
+pub use refine::Refiner;
 pub use search::{Advance, Search};
 pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};

@@ -144,6 +144,30 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
             return Err(PlanFault::WrongStart { robot, cell, start });
         }
     }
+    check_moves(map, plan)?;
+    let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
+    for (robot, (&cell, &target)) in ends {
+        if cell != target {
+            return Err(PlanFault::NotArrived { robot, cell, target });
+        }
+    }
+    Ok(())
+}
+
+/// Checks what [`check_plan`] checks but starts and targets: that all stay on free cells, step to neighbours, and never
+/// meet or swap.
+///
+/// # Errors
+/// The first [`PlanFault`]: of the earliest step, there of the robot with the lowest number.
+///
+/// ```
+/// use activecell::{Cell, Lattice, Map, Plan, check_moves};
+/// let map = Map::parse(Lattice::Square, "...")?;
+/// let plan = Plan::new(1, vec![Cell::new(0, 0), Cell::new(2, 0)])?;
+/// assert_eq!(check_moves(&map, &plan).unwrap_err().to_string(), "step 1: robot 0 jumps from (0,0) to (2,0)");
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn check_moves(map: &Map, plan: &Plan) -> Result<(), PlanFault> {
     let mut before = Standing::new(map);
     let mut now = Standing::new(map);
     for (step, row) in plan.rows().enumerate() {
@@ -163,12 +187,6 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
             before.leave(map, from);
         }
         std::mem::swap(&mut before, &mut now);
-    }
-    let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
-    for (robot, (&cell, &target)) in ends {
-        if cell != target {
-            return Err(PlanFault::NotArrived { robot, cell, target });
-        }
     }
     Ok(())
 }

@@ -12,6 +12,6 @@ mod check;
 mod plan;
 mod team;
 
-pub use check::{PlanFault, check_plan};
+pub use check::{PlanFault, check_moves, check_plan};
 pub use plan::Plan;
 pub use team::Team;
