@@ -3,13 +3,14 @@
 # make deps    what only root can install (optional; nothing so far)
 # make docs    the pictures of the documents, drawn anew
 # make bench   every method beside its peers, 20 minutes (QUICK=1: a few); writes docs/benchmarks.md
+# make bench-fleet  groups of robots for 30 s an instance, 40 minutes (QUICK=1: 3); writes docs/benchmarks-fleet.md
 # make count   instruction counts of the hot loops against those kept (UPDATE=1 keeps the new ones)
 # make clean   remove everything that was built
 
 ACTIVECELL := $(or $(CARGO_TARGET_DIR),target)/release/activecell
 OFFICE := maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m
 
-.PHONY: demo test deps docs bench count clean
+.PHONY: demo test deps docs bench bench-fleet count clean
 
 demo: $(ACTIVECELL)
 	@mkdir -p out
@@ -63,6 +64,9 @@ docs: $(ACTIVECELL)
 
 bench:
 	@QUICK=$(QUICK) bench/run.sh
+
+bench-fleet:
+	@QUICK=$(QUICK) bench/run.sh fleet
 
 # Built for any machine, so that the counts do not depend on this one.
 count:

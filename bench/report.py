@@ -261,8 +261,9 @@ def growth_plot(run, path):
     save(figure, path)
 
 
-def save(figure, path):
-    figure.tight_layout()
+def save(figure, path, above=0.0):
+    """Writes a plot, with so many inches left free above its axes."""
+    figure.tight_layout(rect=(0, 0, 1, 1 - above / figure.get_figheight()))
     figure.savefig(path, metadata={"Date": None, "Creator": None})
     plt.close(figure)
 
@@ -274,37 +275,60 @@ def shell(*command):
         return ""
 
 
-def machine(out):
+def machine(*more):
+    """What it ran on, with more rows of a name and a text."""
     lines = dict(line.split(":", 1) for line in shell("lscpu").splitlines() if ":" in line)
     lines = {key.strip(): value.strip() for key, value in lines.items()}
     cpu = lines.get("Model name", platform.processor() or platform.machine())
     model = [f"{key.lower()} {lines[key]}" for key in ("CPU family", "Model", "Stepping") if key in lines]
     caches = [f"{key.removesuffix(' cache')} {lines[key]}" for key in lines if key.startswith(("L1d", "L2", "L3"))]
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
+    load = os.getloadavg()[2]
+    rows = [
+        ["date", datetime.date.today().isoformat()],
+        ["processor", ", ".join([cpu, *model])],
+        ["caches", "; ".join(caches)],
+        ["cores, memory", f"{os.cpu_count()}, {memory:.0f} GiB; load of the last 15 minutes {load:.1f}"],
+        ["system", f"{platform.system()} {platform.release()}, {platform.machine()}"],
+        ["activecell", shell("git", "describe", "--always", "--dirty") or "unknown"],
+        ["compiler", shell("rustc", "--version") + ", `-C target-cpu=native` for everything in Rust"],
+        *more,
+        ["the run took", f"{os.environ.get('MINUTES', '?')} minutes" + (", in its quick form" if os.environ.get("QUICK") else "")],
+    ]
+    return "| | |\n|---|---|\n" + "\n".join(f"| {key} | {value} |" for key, value in rows) + "\n"
+
+
+def peers(out):
+    """Their versions."""
     versions = {}
     for line in (out / "versions.jsonl").read_text().splitlines():
         versions |= json.loads(line)
     lock = (Path(__file__).parent / "Cargo.lock").read_text()
     for crate in ("pathfinding", "grid_pathfinding"):
         versions[f"crate {crate}"] = lock.split(f'name = "{crate}"\nversion = "')[1].split('"')[0]
-    load = os.getloadavg()[2]
-    rows = [
-        ["date", datetime.date.today().isoformat()],
-        ["processor", ", ".join([cpu, *model])],
-        ["caches", "; ".join(caches)],
-        ["cores, memory", f"{os.cpu_count()}, {memory:.0f} GiB; one core used; load of the last 15 minutes {load:.1f}"],
-        ["system", f"{platform.system()} {platform.release()}, {platform.machine()}"],
-        ["activecell", shell("git", "describe", "--always", "--dirty") or "unknown"],
-        ["compiler", shell("rustc", "--version") + ", `-C target-cpu=native` for everything in Rust"],
-        ["peers", ", ".join(f"{name} {version}" for name, version in versions.items())],
-        ["the run took", f"{os.environ.get('MINUTES', '?')} minutes" + (", in its quick form" if os.environ.get("QUICK") else "")],
-    ]
-    return "| | |\n|---|---|\n" + "\n".join(f"| {key} | {value} |" for key, value in rows) + "\n"
+    return ", ".join(f"{name} {version}" for name, version in versions.items())
+
+
+def fill(template, parts, path):
+    """Writes a document: the words of a template with tables in their places."""
+    text = (Path(__file__).parent / template).read_text()
+    for name, part in parts.items():
+        place = f"{{{{{name}}}}}"
+        assert place in text, f"{template} has no place for {name}"
+        # A part brings the end of its last line, where it has the line for itself.
+        alone = f"\n{place}\n" in text
+        text = text.replace(f"\n{place}\n", f"\n{part}") if alone else text.replace(place, part)
+    path.write_text(text)
+    print(f"written: {path}")
+
+
+def setup_plots():
+    matplotlib.rcParams |= {"svg.hashsalt": "activecell", "svg.fonttype": "none", "font.family": "sans-serif"}
 
 
 def main():
     out, docs = Path(sys.argv[1]), Path(sys.argv[2])
-    matplotlib.rcParams |= {"svg.hashsalt": "activecell", "svg.fonttype": "none", "font.family": "sans-serif"}
+    setup_plots()
     run = Run(out)
     wanting = [r for r in run.records.values() if r.get("stopped")]
     if not all(any(key[2] == OURS for key in run.records if key[0] == part) for part in ("paths", "fields")):
@@ -319,9 +343,13 @@ def main():
     dots(run, "fields", run.ns_per_cell, "whole field, ns per cell reached", pictures / "bench-fields.svg")
     growth_plot(run, pictures / "bench-growth.svg")
 
-    text = (Path(__file__).parent / "report.md").read_text()
+    node = [r["clock"] for r in run.records.values() if r["method"] == "l1-path-finder" and "clock" in r]
+    busy = os.getloadavg()[2] > os.cpu_count()
+    said = " **The machine was busy: wall times are too long, and all ratios are rough.**"
     parts = {
-        "machine": machine(out),
+        "machine": machine(["cores used", "one"], ["peers", peers(out)]),
+        "clock": node[0] if node else "not measured in this run",
+        "busy": said * busy,
         "summary": summary_table(run),
         "mean": paths_table(run, mean, 1),
         "median": paths_table(run, median, 5),
@@ -334,15 +362,8 @@ def main():
         "stopped": "".join(f"Stopped: {r['method']} on {r['case']} ({r['part']}).\n" for r in wanting),
         "repair": repair_table(run),
     }
-    node = [r["clock"] for r in run.records.values() if r["method"] == "l1-path-finder" and "clock" in r]
-    text = text.replace("{{clock}}", node[0] if node else "not measured in this run")
-    busy = os.getloadavg()[2] > os.cpu_count()
-    text = text.replace(" {{busy}}", " **The machine was busy: wall times are too long, and all ratios are rough.**" * busy)
-    for name, part in parts.items():
-        assert f"{{{{{name}}}}}" in text, f"report.md has no place for {name}"
-        text = text.replace(f"{{{{{name}}}}}\n", part)
-    (docs / "benchmarks.md").write_text(text)
-    print(f"written: {docs / 'benchmarks.md'}")
+    fill("report.md", parts, docs / "benchmarks.md")
 
 
-main()
+if __name__ == "__main__":
+    main()

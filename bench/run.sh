@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The benchmarks with one command: `make bench`, or `make bench QUICK=1`. See docs/benchmarks.md.
+# The benchmarks with one command: `make bench`, or `make bench QUICK=1`. See docs/benchmarks.md. With `fleet`, those of
+# groups: `make bench-fleet`. See docs/benchmarks-fleet.md.
 # Everything is installed and written inside bench/; nothing needs root.
 set -euo pipefail
 project=$(cd "$(dirname "$0")/.." && pwd)
@@ -75,6 +76,9 @@ install() {
         .venv/bin/pip install --quiet --disable-pip-version-check -r requirements.txt
         touch .venv/done
     fi
+}
+
+install_node() {
     have_node=
     if ! command -v npm > /dev/null || ! command -v node > /dev/null; then
         say "Node is missing: l1-path-finder is NOT measured"
@@ -100,9 +104,56 @@ grow() {
     done
 }
 
+# The planner for groups: map, scenario in the data folder (`-`: the map's random one), robots (0: all rows), lattice.
+FLEET='random-32-32-20 - 100,400 square,hex
+random-64-64-20 - 100,400,1000 square,hex
+empty-48-48 - 100,400,1000 square,hex
+room-64-64-8 - 100,400,1000 square,hex
+maze-32-32-4 - 100,0 square
+maze-128-128-2 - 100,400,1000 square,hex
+warehouse-10-20-10-2-1 - 100,400,1000 square,hex
+warehouse-20-40-10-2-2 mapf/warehouse-20-40-10-2-2-10000agents-1 1000,2000,5000,10000 square,hex
+den520d - 100,400,1000 square,hex
+ost003d - 100,400,1000 square
+brc202d - 100,400,1000 square
+Berlin_1_256 - 100,400,1000 square
+random-32-32-20 mapf/dense/random-32-32-20-random-1 800 square
+puzzles/connector mapf/puzzles/connector 0 square
+puzzles/corners mapf/puzzles/corners 0 square
+puzzles/dislike-example mapf/puzzles/dislike-example 0 square
+puzzles/loop mapf/puzzles/loop 0 square
+puzzles/loop-chain mapf/puzzles/loop-chain 0 square
+puzzles/string mapf/puzzles/string 0 square
+puzzles/tree mapf/puzzles/tree 0 square
+puzzles/tunnel mapf/puzzles/tunnel 0 square'
+
+fleet() {
+    local start=$SECONDS out=out/fleet.jsonl map scen robots lattices number lattice seconds
+    if [ ! -d "$DATA/mapf" ]; then
+        say "no maps in ${DATA:-the folder named}/mapf: set ACTIVECELL_DATA"
+        exit 1
+    fi
+    install
+    mkdir -p out && rm -f "$out"
+    say "groups"
+    while read -r map scen robots lattices; do
+        if [ "$scen" = - ]; then scen=mapf/$map-random-1; fi
+        for lattice in ${lattices//,/ }; do
+            for number in ${robots//,/ }; do
+                seconds=${QUICK:+2}
+                case $map in puzzles/*) seconds=1 ;; esac
+                "$BENCH" fleet "$DATA/mapf/$map.map" "$DATA/$scen.scen" "$number" "$lattice" "${seconds:-30}" "$out"
+            done
+        done
+        echo "  $map" >&2
+    done <<< "$FLEET"
+    MINUTES=$(((SECONDS - start + 30) / 60)) "$PYTHON" fleet.py "$out" ../docs
+}
+
 main() {
     local start=$SECONDS
     install
+    install_node
     mkdir -p out && rm -rf "$WORK" "$OUT"
     if [ ! -d "$DATA" ]; then
         say "no real maps in ${DATA:-the folder named} (set ACTIVECELL_DATA): synthetic maps alone"
@@ -130,4 +181,7 @@ main() {
     MINUTES=$(((SECONDS - start + 30) / 60)) "$PYTHON" report.py out ../docs
 }
 
-main
+case ${1:-} in
+fleet) fleet ;;
+*) main ;;
+esac

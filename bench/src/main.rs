@@ -5,11 +5,13 @@
 //! activecell-bench list WORK GROUP                               names of the cases
 //! activecell-bench run WORK OUT paths|fields|repair - -          measure all methods on all maps
 //! activecell-bench run WORK OUT paths|fields CASE METHOD         one method on one growing map
+//! activecell-bench fleet MAP SCEN ROBOTS LATTICE SECONDS OUT     the planner for groups on one instance
 //! activecell-bench count FILE [--update]                         instruction counts
 //! ```
 
 mod cases;
 mod count;
+mod fleet;
 mod maps;
 mod measure;
 mod ours;
@@ -46,6 +48,9 @@ fn main() -> Result<()> {
             Ok(())
         }
         ["run", work, out, part, case, method] => run(Path::new(work), out, part, case, method),
+        ["fleet", map, scen, robots, lattice, seconds, out] => {
+            fleet::run(Path::new(map), Path::new(scen), robots.parse()?, lattice, seconds.parse()?, out)
+        }
         ["count", file, ref rest @ ..] => count::compare(Path::new(file), rest.contains(&"--update")),
         ["count-one", name] => count::workload(name),
         _ => bail!("see the first lines of bench/src/main.rs"),

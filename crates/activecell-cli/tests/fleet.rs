@@ -325,3 +325,16 @@ fn real_scenarios_are_planned_saved_and_checked() {
     }
     assert!(scenarios.len() > 5, "{scenarios:?}");
 }
+
+#[test]
+fn targets_can_be_given_to_whoever_is_best_placed() {
+    let folder = stage();
+    let path = folder.path();
+    for lattice in ["square", "hex"] {
+        let task = format!("fleet rooms.map --lattice {lattice} --scen rooms.scen --step-limit 2000 --json");
+        let [given, assigned] =
+            ["", "--assign --save a.json"].map(|more| json(path, &format!("{task} {more}"), &[0]));
+        assert!(assigned["lower_bound"].as_u64() < given["lower_bound"].as_u64(), "{assigned}");
+        assert_eq!(json(path, "check rooms.map a.json --json", &[0])["robots"], json!(4));
+    }
+}

@@ -54,7 +54,8 @@ pub struct Outcome {
     pub ending: Ending,
     /// The plans found, each of a lower sum of costs than the one before.
     pub history: Vec<Improvement>,
-    /// The sum of the distances to the targets; 0 if a robot has no way to its target.
+    /// The sum of the distances to the targets; 0 if a robot has no way to its target, or if time ended before all
+    /// distances were known.
     pub lower_bound: u64,
     /// Steps of the search.
     pub steps: u64,
@@ -98,6 +99,9 @@ pub enum Ending {
 /// A better plan is looked at no more often than once in so many steps: putting it together takes as long as several.
 const LOOK_EVERY: u64 = 256;
 
+/// So many fields are made between two looks at the clock.
+const FIELDS_AT_ONCE: usize = 256;
+
 /// Looks for a plan that takes every robot of the team from its start to its target, and for better ones until a limit is
 /// reached. `watch` is told of every better plan.
 ///
@@ -130,11 +134,16 @@ pub fn solve(
         |cells: &[activecell::Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
     let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
     if starts.iter().zip(&targets).any(|(&start, &target)| !floor.connected(start, target)) {
-        let (bytes, ending) = (floor.bytes(), Ending::Exhausted);
-        return Ok(Outcome { plan: None, ending, history: Vec::new(), lower_bound: 0, steps: 0, bytes });
+        return Ok(nothing(Ending::Exhausted, floor.bytes()));
     }
     let mut fields = Fields::new(&floor);
-    let slots = fields.request(&floor, &targets, options.threads)?;
+    let mut slots = Vec::with_capacity(targets.len());
+    for part in targets.chunks(FIELDS_AT_ONCE) {
+        slots.extend(fields.request(&floor, part, options.threads)?);
+        if options.limits.time.is_some_and(|time| clock.elapsed() >= time) {
+            return Ok(nothing(Ending::Time, floor.bytes() + fields.bytes()));
+        }
+    }
     let goals = targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
     let arbiter = Arbiter::new(&floor, &fields, goals, options.seed);
     let search = Search::new(arbiter, &starts, options.seed);
@@ -149,6 +158,11 @@ pub fn solve(
         history: run.history,
         plan: run.best.map(|(_, plan)| plan),
     })
+}
+
+/// What comes of it if the search does not even begin.
+const fn nothing(ending: Ending, bytes: usize) -> Outcome {
+    Outcome { plan: None, ending, history: Vec::new(), lower_bound: 0, steps: 0, bytes }
 }
 
 /// A search with its best plan.

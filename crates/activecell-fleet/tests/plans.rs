@@ -144,6 +144,8 @@ fn limits_of_steps_and_memory_end_the_search() {
     let mut few = options(0, u64::MAX, false);
     few.limits.bytes = 2000;
     assert_eq!(solve(&map, &team, &few, |_| {}).unwrap().ending, Ending::Memory);
+    few.limits.time = Some(std::time::Duration::ZERO);
+    assert_eq!(solve(&map, &team, &few, |_| {}).unwrap().ending, Ending::Time, "no time for the fields");
     let free = solve(&map, &team, &options(0, u64::MAX, false), |_| {}).unwrap();
     assert!(free.is_impossible());
 }

@@ -30,6 +30,9 @@ pub(crate) struct FleetArgs {
     /// How many robots [default: a robot a row of the scenario]
     #[arg(short = 'n', long, value_name = "N")]
     pub(crate) robots: Option<usize>,
+    /// Give each target to whoever is best placed: of all ways to share them out, one with the least sum of distances
+    #[arg(long)]
+    pub(crate) assign: bool,
     /// Seconds to look for better plans [default: 10; none with --step-limit]
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) time_limit: Option<f64>,

@@ -19,10 +19,14 @@ const TIME_LIMIT_S: f64 = 10.0;
 pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done> {
     let formats = formats(args)?;
     let map = load::map(&args.map, None, terminal)?.map;
-    let team = match (&args.scen, args.robots) {
+    let mut team = match (&args.scen, args.robots) {
         (Some(scen), robots) => team::of_scenario(&map, scen, robots)?,
         (None, robots) => team::by_chance(&map, robots.unwrap_or_default(), args.seed)?,
     };
+    if args.assign {
+        let _working = terminal.working(format!("{} robots: sharing out their targets", team.robots()));
+        team = Team::assigned(&map, team.starts().to_vec(), team.targets())?;
+    }
     let options = options(args);
     let clock = Instant::now();
     let outcome = {

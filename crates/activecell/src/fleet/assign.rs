@@ -96,7 +96,7 @@ struct Flow<'a> {
     /// The cell that each link leads to, [`NONE`] into an obstacle.
     links: Vec<u32>,
     /// The robots that go over each link, less those that come the other way.
-    flow: Vec<i32>,
+    net: Vec<i32>,
     /// One up for every step of a robot that flows; at most one up over every other link.
     potential: Vec<i32>,
     open: Vec<Open>,
@@ -128,7 +128,7 @@ impl<'a> Flow<'a> {
         let mut flow = Self {
             map,
             degree,
-            flow: vec![0; links.len()],
+            net: vec![0; links.len()],
             links,
             potential: vec![0; cells],
             open: vec![Open::Nothing; cells],
@@ -162,7 +162,7 @@ impl<'a> Flow<'a> {
     /// The reduced cost of one robot more from a cell over one of its links to `next`.
     #[inline]
     fn cost(&self, from: u32, link: usize, next: u32) -> u32 {
-        let step = if self.flow[link] < 0 { -1 } else { 1 };
+        let step = if self.net[link] < 0 { -1 } else { 1 };
         (step + self.potential[from as usize] - self.potential[next as usize]) as u32
     }
 
@@ -271,8 +271,8 @@ impl<'a> Flow<'a> {
             let link = cell as usize * self.degree + usize::from(dir);
             let next = self.links[link] as usize;
             let back = self.map.lattice().opposite(Dir(dir)).index();
-            self.flow[link] += 1;
-            self.flow[next * self.degree + back] -= 1;
+            self.net[link] += 1;
+            self.net[next * self.degree + back] -= 1;
         }
     }
 
@@ -303,8 +303,8 @@ impl<'a> Flow<'a> {
             for robot in robots {
                 let mut links = self.links_of(cell);
                 let link =
-                    links.find(|&link| self.flow[link] > 0).expect("who comes and does not stay goes on");
-                self.flow[link] -= 1;
+                    links.find(|&link| self.net[link] > 0).expect("who comes and does not stay goes on");
+                self.net[link] -= 1;
                 let next = self.links[link];
                 under_way.entry((self.potential[next as usize], next)).or_default().push(robot);
             }
