@@ -98,7 +98,7 @@ impl Key {
             Self::Active => shapes.push(active_disc(middle, 0.45 * size)),
             Self::Route => band(shapes, BLUE_TINT, Line::new(BLUE, 0.26 * size)),
             Self::Trapped => {
-                let line = Line { colour: PURPLE, width: 0.3 * size, dash: Some(0.4 * size) };
+                let line = Line { dash: Some(0.4 * size), ..Line::new(PURPLE, 0.3 * size) };
                 band(shapes, PURPLE_TINT, line);
             }
             Self::Region => {
@@ -125,7 +125,7 @@ impl Key {
                     _ => (GREEN, 1.2, None),
                 };
                 let run = vec![[x + 3.0, y], [x + width - 3.0, y]];
-                shapes.push(Shape::lines(vec![run], Line { colour, width: stroke, dash }));
+                shapes.push(Shape::lines(vec![run], Line { dash, ..Line::new(colour, stroke) }));
             }
             Self::Ends => {
                 for (dx, dy) in [(-4.0, 1.0), (-1.5, -2.5), (0.5, 2.5), (2.0, -0.5), (4.5, -3.0), (4.0, 3.0)]

@@ -44,6 +44,7 @@ mod outline;
 mod palette;
 mod prediction;
 mod raster;
+mod reel;
 mod region;
 mod route;
 mod sample;
