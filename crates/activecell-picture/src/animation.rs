@@ -1,20 +1,19 @@
 //! Animations: the wave spreads, then the active cell moves along the route.
 //!
-//! A frame is put together from two canvases, one below and one above, and a few moving shapes. Only what
-//! differs from the frame before is written.
+//! A frame is put together from two canvases, one below and one above, and a few moving shapes.
 
 use crate::colour::Rgb;
 use crate::figure::Figure;
 use crate::hills;
 use crate::layout::{Layout, MOVING};
 use crate::legend::{Key, active_disc};
-use crate::palette::{Palette, SAME, wave_tint};
+use crate::palette::{Palette, wave_tint};
 use crate::raster;
+use crate::reel::Reel;
 use crate::route::{self, Route};
 use crate::scene::Shape;
 use crate::{Error, RoutePicture, Wave};
 use activecell::{Cell, Map};
-use std::borrow::Cow;
 use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 const WAVE_FRAMES: u32 = 70;
@@ -170,99 +169,28 @@ impl Stage {
     }
 }
 
-/// The file as it is written.
+/// The file as it is written, in the pictures' own palette.
 pub(crate) struct Film {
-    encoder: gif::Encoder<Vec<u8>>,
     palette: Palette,
-    /// The last frame, and the colour numbers that stand for it.
-    last: Pixmap,
-    numbers: Vec<u8>,
-    /// A frame waits here until it is known that the next one differs.
-    waiting: gif::Frame<'static>,
+    reel: Reel,
 }
 
 impl Film {
     /// A film whose first frame covers all of it.
     pub(crate) fn new(first: &Pixmap, delay_cs: u16, uneven: bool) -> Result<Self, Error> {
-        let (width, height) = (first.width(), first.height());
-        let size = |size: u32| u16::try_from(size).map_err(|_| Error::Canvas { width, height });
-        let (w, h) = (size(width)?, size(height)?);
         let mut palette = Palette::new(uneven);
-        let mut encoder =
-            gif::Encoder::new(Vec::new(), w, h, &palette.bytes()).map_err(|error| encoding(&error))?;
-        encoder.set_repeat(gif::Repeat::Infinite).map_err(|error| encoding(&error))?;
-        let numbers: Vec<u8> = first.data().chunks_exact(4).map(|p| number(&mut palette, p)).collect();
-        let waiting = gif::Frame {
-            delay: delay_cs,
-            width: w,
-            height: h,
-            buffer: Cow::Owned(numbers.clone()),
-            ..gif::Frame::default()
-        };
-        Ok(Self { encoder, palette, last: first.clone(), numbers, waiting })
+        let numbers = palette.numbers(first);
+        let reel = Reel::new(numbers, [first.width(), first.height()], delay_cs, &palette.bytes())?;
+        Ok(Self { palette, reel })
     }
 
-    /// Adds a frame: the smallest rectangle that holds all changes, the rest of it “as before”.
+    /// Adds a frame.
     pub(crate) fn shoot(&mut self, frame: &Pixmap, delay_cs: u16) -> Result<(), Error> {
-        let Some((columns, rows)) = self.changed(frame) else {
-            self.waiting.delay = self.waiting.delay.saturating_add(delay_cs);
-            return Ok(());
-        };
-        let width = frame.width() as usize;
-        let mut buffer = Vec::with_capacity(columns.len() * rows.len());
-        for y in rows.clone() {
-            for pixel in y * width + columns.start..y * width + columns.end {
-                let now = number(&mut self.palette, &frame.data()[4 * pixel..4 * pixel + 4]);
-                buffer.push(if now == self.numbers[pixel] { SAME } else { now });
-                self.numbers[pixel] = now;
-            }
-        }
-        self.last.data_mut().copy_from_slice(frame.data());
-        // The sizes fit: they are parts of the whole, which fitted.
-        let next = gif::Frame {
-            delay: delay_cs,
-            left: columns.start as u16,
-            top: rows.start as u16,
-            width: columns.len() as u16,
-            height: rows.len() as u16,
-            transparent: Some(SAME),
-            buffer: Cow::Owned(buffer),
-            ..gif::Frame::default()
-        };
-        let before = std::mem::replace(&mut self.waiting, next);
-        self.encoder.write_frame(&before).map_err(|error| encoding(&error))
+        let numbers = self.palette.numbers(frame);
+        self.reel.shoot(&numbers, delay_cs)
     }
 
-    /// Columns and rows of the rectangle in which a frame differs from the last.
-    fn changed(&self, frame: &Pixmap) -> Option<(std::ops::Range<usize>, std::ops::Range<usize>)> {
-        let stride = 4 * frame.width() as usize;
-        let (mut left, mut right) = (usize::MAX, 0);
-        let (mut top, mut bottom) = (None, 0);
-        let rows = frame.data().chunks_exact(stride).zip(self.last.data().chunks_exact(stride));
-        for (y, (now, before)) in rows.enumerate() {
-            if now == before {
-                continue;
-            }
-            let differs = |(a, b): (&[u8], &[u8])| a != b;
-            let mut pairs = now.chunks_exact(4).zip(before.chunks_exact(4));
-            left = left.min(pairs.clone().position(differs).unwrap_or(0));
-            right = right.max(pairs.rposition(differs).unwrap_or(0) + 1);
-            top = top.or(Some(y));
-            bottom = y + 1;
-        }
-        top.map(|top| (left..right, top..bottom))
+    pub(crate) fn finish(self) -> Result<Vec<u8>, Error> {
+        self.reel.finish()
     }
-
-    pub(crate) fn finish(mut self) -> Result<Vec<u8>, Error> {
-        self.encoder.write_frame(&self.waiting).map_err(|error| encoding(&error))?;
-        self.encoder.into_inner().map_err(|error| Error::Encoding(error.to_string()))
-    }
-}
-
-fn number(palette: &mut Palette, pixel: &[u8]) -> u8 {
-    palette.nearest(Rgb(pixel[0], pixel[1], pixel[2]))
-}
-
-fn encoding(error: &gif::EncodingError) -> Error {
-    Error::Encoding(error.to_string())
 }

@@ -20,6 +20,7 @@ pub(crate) const ORANGE: Rgb = Rgb(0xe6, 0x9f, 0x00);
 pub(crate) const ORANGE_RIM: Rgb = Rgb(0x4a, 0x33, 0x00);
 /// The start.
 pub(crate) const GREEN: Rgb = Rgb(0x00, 0x9e, 0x73);
+pub(crate) const GREEN_TINT: Rgb = Rgb(0xbf, 0xe6, 0xd8);
 /// The target.
 pub(crate) const VERMILLION: Rgb = Rgb(0xd5, 0x5e, 0x00);
 /// The cells in which a robot circles for ever.
@@ -59,6 +60,34 @@ pub(crate) fn height(share: f64) -> Rgb {
 /// The tint of a cell that the wave reached after `share` (0 to 1) of its run.
 pub(crate) fn wave(share: f64) -> Rgb {
     between(WAVE, share)
+}
+
+/// How busy a cell is: from yellow over red to dark violet, ever darker.
+pub(crate) mod traffic {
+    use super::Rgb;
+
+    /// How many tints there are.
+    pub(crate) const TINTS: u8 = 12;
+    const COLOURS: [Rgb; 5] = [
+        Rgb(0xff, 0xf1, 0xb5),
+        Rgb(0xfd, 0xc6, 0x6b),
+        Rgb(0xf4, 0x7d, 0x4b),
+        Rgb(0xc9, 0x2d, 0x60),
+        Rgb(0x5c, 0x0f, 0x63),
+    ];
+
+    /// The tint, from 1, for so many visits; `most` and more have the last.
+    pub(crate) fn tint(visits: u32, most: u32) -> u8 {
+        let share = u64::from(visits.saturating_sub(1)) * u64::from(TINTS) / u64::from(most.max(1));
+        share.min(u64::from(TINTS) - 1) as u8 + 1
+    }
+
+    /// The colour of a tint, counted from 1.
+    pub(crate) fn colour(tint: u8) -> Rgb {
+        let at = f64::from(tint.clamp(1, TINTS) - 1) / f64::from(TINTS - 1) * (COLOURS.len() - 1) as f64;
+        let below = (at as usize).min(COLOURS.len() - 2);
+        COLOURS[below].mix(COLOURS[below + 1], at - below as f64)
+    }
 }
 
 /// The colour `share` (0 to 1) of the way through three.

@@ -27,7 +27,7 @@ pub(crate) fn scene() -> Scene {
     let page = vec![[0.0, 0.0], [SIZE[0], 0.0], SIZE, [0.0, SIZE[1]]];
     let moving = vec![[left, top], [right, top], [right, bottom], [left, bottom]];
     let mut shapes = vec![Shape::area(vec![page], PAGE)];
-    let line = Some(Line { colour: EDGE, width: 1.4, dash: Some(6.0) });
+    let line = Some(Line { dash: Some(6.0), ..Line::new(EDGE, 1.4) });
     shapes.push(Shape::Path { runs: vec![moving], closed: true, fill: Some(FLOOR), line });
     text(&mut shapes, [470.0, top + 22.0], "moving: the first row of the table that matches");
     let motions = [State::Forward, State::Left, State::Right, State::Reverse];

@@ -187,14 +187,22 @@ impl<'a> Figure<'a> {
         let Some(longest) = crate::farthest(self.map, wave) else { return Vec::new() };
         let bands = u32::from(BANDS).min(longest.saturating_add(1)) as u8;
         let band = |steps: u32| 1 + (u64::from(steps) * u64::from(bands) / (u64::from(longest) + 1)) as u8;
-        let levels = self.levels(|cell| wave(cell).map(band));
+        let share = |band: u8| f64::from(band - 1) / f64::from((bands - 1).max(1));
+        self.bands(bands, |cell| wave(cell).map(band), |band| colour::wave(share(band)))
+    }
+
+    /// Cells in bands, counted from 1, each of its colour.
+    pub(crate) fn bands(
+        &self,
+        bands: u8,
+        band: impl Fn(Cell) -> Option<u8>,
+        colour: impl Fn(u8) -> colour::Rgb,
+    ) -> Vec<Shape> {
+        let levels = self.levels(band);
         let width = self.sampled.width() as usize;
         let level = |cell: Cell| levels[cell.y as usize * width + cell.x as usize];
         // Each band lies on the one before, which reaches below it: no seam between them.
-        let share = |band: u8| f64::from(band - 1) / f64::from((bands - 1).max(1));
-        (1..=bands)
-            .map(|band| Shape::area(self.traced(|cell| level(cell) >= band), colour::wave(share(band))))
-            .collect()
+        (1..=bands).map(|band| Shape::area(self.traced(|cell| level(cell) >= band), colour(band))).collect()
     }
 
     /// The band of every block, 0 for none. Obstacles, which will cover it, get a neighbour's band: the

@@ -17,6 +17,8 @@ pub(crate) struct Style {
     pub(crate) may_exceed: bool,
     pub(crate) margin: f64,
     pub(crate) title_size: f64,
+    /// Room between the title and the map.
+    pub(crate) band: f64,
     pub(crate) text_size: f64,
     /// The least width of the map's column, for the title and the legend.
     pub(crate) least_width: f64,
@@ -33,6 +35,7 @@ pub(crate) const STILL: Style = Style {
     may_exceed: true,
     margin: 24.0,
     title_size: 17.0,
+    band: 0.0,
     text_size: 14.0,
     least_width: 460.0,
     title_width: 760.0,
@@ -46,6 +49,7 @@ pub(crate) const MOVING: Style = Style {
     may_exceed: false,
     margin: 16.0,
     title_size: 14.0,
+    band: 0.0,
     text_size: 12.0,
     least_width: 420.0,
     title_width: 560.0,
@@ -90,7 +94,7 @@ impl Layout {
         // A title that is a little too long is set smaller; the rest is cut off.
         let title_size = style.title_size * (column / full_width.max(1.0)).clamp(0.8, 1.0);
         let left = style.margin + ((column - map_size[0]) / 2.0).floor();
-        let top = style.margin + (style.title_size * 1.9).round();
+        let top = style.margin + (style.title_size * 1.9).round() + style.band;
         Self {
             style,
             title_size,

@@ -1,9 +1,10 @@
 //! The footer: scale bar and legend, in as many rows as they need.
 
 use crate::colour::{
-    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE, PURPLE_TINT,
-    TEXT, VERMILLION, YELLOW,
+    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE, PURPLE_TINT, Rgb,
+    TEXT, VERMILLION, YELLOW, traffic,
 };
+use crate::fleet;
 use crate::font;
 use crate::layout::{Layout, round_length};
 use crate::region;
@@ -35,6 +36,14 @@ pub(crate) enum Key {
     Beam,
     Mover,
     Expected,
+    RobotStart,
+    RobotTarget,
+    RobotWay,
+    Robot,
+    RobotAtRest,
+    TargetCell,
+    /// The visits to the busiest cells.
+    Traffic(u32),
 }
 
 /// Swatches of the wave's colours.
@@ -43,8 +52,8 @@ const SWATCHES: usize = 16;
 impl Key {
     fn label(self, map: &Map) -> String {
         let label = match self {
-            Self::Start => "start",
-            Self::Target => "target",
+            Self::Start | Self::RobotStart => "start",
+            Self::Target | Self::RobotTarget | Self::TargetCell => "target",
             Self::Route => "route",
             Self::Turn => "turn",
             Self::Trapped => "trapped",
@@ -62,7 +71,11 @@ impl Key {
             Self::Beam => "beams",
             Self::Mover => "walker",
             Self::Expected => "expected there",
+            Self::RobotWay => "way",
+            Self::Robot => "robot, in its target's colour",
+            Self::RobotAtRest => "at its target",
             Self::Height => return heights(map),
+            Self::Traffic(most) => return format!("visits a cell: 1 to {most} or more"),
         };
         label.to_owned()
     }
@@ -76,8 +89,11 @@ impl Key {
             | Self::Planned
             | Self::Driven
             | Self::Believed
-            | Self::Beam => 2.0,
+            | Self::Beam
+            | Self::RobotWay => 2.0,
+            Self::Robot | Self::RobotAtRest => 2.9,
             Self::Wave | Self::Height => 4.0,
+            Self::Traffic(_) => 8.0,
             Self::Turn => 0.8,
             _ => 1.2,
         }
@@ -98,25 +114,15 @@ impl Key {
             Self::Active => shapes.push(active_disc(middle, 0.45 * size)),
             Self::Route => band(shapes, BLUE_TINT, Line::new(BLUE, 0.26 * size)),
             Self::Trapped => {
-                let line = Line { colour: PURPLE, width: 0.3 * size, dash: Some(0.4 * size) };
+                let line = Line { dash: Some(0.4 * size), ..Line::new(PURPLE, 0.3 * size) };
                 band(shapes, PURPLE_TINT, line);
             }
             Self::Region => {
                 let ellipse = region::ellipse(0.4, |across, up| [middle[0] + across * size, y - up * size]);
                 shapes.extend(region::outline(vec![ellipse]));
             }
-            Self::Wave | Self::Height => {
-                let step = width / SWATCHES as f64;
-                for i in 0..SWATCHES {
-                    let share = i as f64 / (SWATCHES - 1) as f64;
-                    let tint = if self == Self::Wave { colour::wave(share) } else { colour::height(share) };
-                    let left = x + i as f64 * step;
-                    // Each swatch reaches below all that follow: no seams.
-                    let rest = x + width - left;
-                    shapes.push(Shape::area(vec![rectangle(left, y - 0.5 * size, rest, size)], tint));
-                }
-                outline(shapes, rectangle(x, y - 0.5 * size, width, size));
-            }
+            Self::Wave => scale(shapes, [x, y], [width, size], SWATCHES, colour::wave),
+            Self::Height => scale(shapes, [x, y], [width, size], SWATCHES, colour::height),
             Self::Planned | Self::Driven | Self::Believed | Self::Beam => {
                 let (colour, stroke, dash) = match self {
                     Self::Planned => (BLUE_TINT, 0.7 * size, None),
@@ -125,7 +131,7 @@ impl Key {
                     _ => (GREEN, 1.2, None),
                 };
                 let run = vec![[x + 3.0, y], [x + width - 3.0, y]];
-                shapes.push(Shape::lines(vec![run], Line { colour, width: stroke, dash }));
+                shapes.push(Shape::lines(vec![run], Line { dash, ..Line::new(colour, stroke) }));
             }
             Self::Ends => {
                 for (dx, dy) in [(-4.0, 1.0), (-1.5, -2.5), (0.5, 2.5), (2.0, -0.5), (4.5, -3.0), (4.0, 3.0)]
@@ -153,6 +159,34 @@ impl Key {
                 let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
                 shapes.push(Shape::area(vec![square], fill));
             }
+            _ => self.fleet_icon(shapes, [x, y], size),
+        }
+    }
+
+    /// The icons of groups of robots.
+    fn fleet_icon(self, shapes: &mut Vec<Shape>, [x, y]: Point, size: f64) {
+        let width = self.icon_width() * size;
+        let middle = [x + width / 2.0, y];
+        match self {
+            Self::Traffic(most) => {
+                let tints = most.clamp(1, traffic::TINTS.into());
+                let visits = |share: f64| 1 + (share * f64::from(most - 1)).round() as u32;
+                let tint = |share| traffic::colour(traffic::tint(visits(share), most));
+                scale(shapes, [x, y], [width, size], tints as usize, tint);
+            }
+            Self::RobotStart => shapes.push(fleet::start(middle, 1.3 * size, BLUE)),
+            Self::RobotTarget => shapes.push(fleet::target(middle, 1.5 * size, BLUE)),
+            Self::RobotWay => {
+                let line = Line { opacity: 0.7, ..Line::new(BLUE, 2.0) };
+                shapes.push(Shape::lines(vec![vec![[x + 3.0, y], [x + width - 3.0, y]]], line));
+            }
+            Self::Robot | Self::RobotAtRest => fleet::three(shapes, [x, y], size, self == Self::RobotAtRest),
+            Self::TargetCell => {
+                let side = 0.95 * size;
+                let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
+                shapes.push(Shape::area(vec![square], fleet::tint(6, 1)));
+            }
+            _ => {}
         }
     }
 }
@@ -160,6 +194,24 @@ impl Key {
 /// The cell that is active now.
 pub(crate) fn active_disc(centre: Point, radius: f64) -> Shape {
     Shape::Disc { centre, radius, fill: YELLOW, line: Some(Line::new(ORANGE_RIM, (radius * 0.2).max(1.4))) }
+}
+
+/// A band of `count` swatches whose colours run from share 0 to share 1.
+fn scale(
+    shapes: &mut Vec<Shape>,
+    [x, y]: Point,
+    [width, height]: [f64; 2],
+    count: usize,
+    colour: impl Fn(f64) -> Rgb,
+) {
+    for i in 0..count {
+        let share = i as f64 / (count - 1).max(1) as f64;
+        let left = x + i as f64 * width / count as f64;
+        // Each swatch reaches below all that follow: no seams.
+        let rest = x + width - left;
+        shapes.push(Shape::area(vec![rectangle(left, y - 0.5 * height, rest, height)], colour(share)));
+    }
+    outline(shapes, rectangle(x, y - 0.5 * height, width, height));
 }
 
 /// The lowest and the highest ground.

@@ -36,6 +36,7 @@ mod colour;
 mod control;
 mod drives;
 mod figure;
+mod fleet;
 mod font;
 mod hills;
 mod layout;
@@ -44,6 +45,7 @@ mod outline;
 mod palette;
 mod prediction;
 mod raster;
+mod reel;
 mod region;
 mod route;
 mod sample;
@@ -56,6 +58,7 @@ use activecell::predict::{Closures, Plan};
 use activecell::{Cell, Map, Region};
 pub use drives::{DrivePanel, drives_png, drives_svg};
 use figure::Figure;
+pub use fleet::{FilmLimits, FleetFilm, FleetPicture, FleetView, fleet_gif, fleet_png, fleet_svg};
 pub use simulation::{
     Moment, MovingPicture, SimulationPicture, simulation_gif, simulation_png, simulation_svg,
 };

@@ -4,6 +4,7 @@ use crate::colour::{
     BLUE, BLUE_TINT, CLOSED, EDGE, FLOOR, GREEN, GRID, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE,
     PURPLE_TINT, Rgb, TEXT, VERMILLION, YELLOW, height, wave,
 };
+use tiny_skia::Pixmap;
 
 /// The tints of the wave in an animation.
 pub(crate) const WAVE_TINTS: u32 = 20;
@@ -27,13 +28,8 @@ pub(crate) struct Palette {
 impl Palette {
     /// For a map on `uneven` ground also its tints and the wave's in light and shadow.
     pub(crate) fn new(uneven: bool) -> Self {
-        // The first place is taken by “as before”.
-        let mut colours = vec![PAGE];
-        let mut add = |colour: Rgb| {
-            if colours.len() < 256 && !colours[1..].contains(&colour) {
-                colours.push(colour);
-            }
-        };
+        let mut colours = Vec::new();
+        let mut add = |colour: Rgb| colours.push(colour);
         for colour in [
             PAGE,
             FLOOR,
@@ -95,12 +91,29 @@ impl Palette {
                 add(a.mix(b, f64::from(i) / f64::from(steps)));
             }
         }
+        Self::of(colours)
+    }
+
+    /// The first 255 different colours of these.
+    pub(crate) fn of(wanted: impl IntoIterator<Item = Rgb>) -> Self {
+        // The first place is taken by “as before”.
+        let mut colours = vec![PAGE];
+        for colour in wanted {
+            if colours.len() < 256 && !colours[1..].contains(&colour) {
+                colours.push(colour);
+            }
+        }
         Self { colours, known: vec![0; 1 << 18] }
     }
 
     /// The colours as a GIF wants them.
     pub(crate) fn bytes(&self) -> Vec<u8> {
         self.colours.iter().flat_map(|&Rgb(r, g, b)| [r, g, b]).collect()
+    }
+
+    /// The numbers of a picture's pixels, row by row.
+    pub(crate) fn numbers(&mut self, picture: &Pixmap) -> Vec<u8> {
+        picture.data().chunks_exact(4).map(|pixel| self.nearest(Rgb(pixel[0], pixel[1], pixel[2]))).collect()
     }
 
     /// The number of the colour nearest to this one, never [`SAME`].

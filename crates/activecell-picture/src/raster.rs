@@ -57,7 +57,7 @@ fn draw_text(pixmap: &mut Pixmap, text: &Text) {
     let mut path = PathBuilder::new();
     font::outline(&mut path, content, x, y, size, bold);
     if let Some(path) = path.finish() {
-        pixmap.fill_path(&path, &paint(colour), FillRule::Winding, Transform::identity(), None);
+        pixmap.fill_path(&path, &paint(colour, 1.0), FillRule::Winding, Transform::identity(), None);
     }
 }
 
@@ -82,7 +82,7 @@ fn path(runs: &[Vec<Point>], closed: bool) -> Option<Path> {
 fn draw_path(pixmap: &mut Pixmap, path: Option<Path>, fill: Option<Rgb>, line: Option<&Line>) {
     let Some(path) = path else { return };
     if let Some(colour) = fill {
-        pixmap.fill_path(&path, &paint(colour), FillRule::EvenOdd, Transform::identity(), None);
+        pixmap.fill_path(&path, &paint(colour, 1.0), FillRule::EvenOdd, Transform::identity(), None);
     }
     if let Some(line) = line {
         let dash = line.dash.and_then(|dash| StrokeDash::new(vec![dash as f32; 2], 0.0));
@@ -93,12 +93,13 @@ fn draw_path(pixmap: &mut Pixmap, path: Option<Path>, fill: Option<Rgb>, line: O
             dash,
             ..Stroke::default()
         };
-        pixmap.stroke_path(&path, &paint(line.colour), &stroke, Transform::identity(), None);
+        let paint = paint(line.colour, line.opacity);
+        pixmap.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
     }
 }
 
-fn paint(Rgb(r, g, b): Rgb) -> Paint<'static> {
+fn paint(Rgb(r, g, b): Rgb, opacity: f64) -> Paint<'static> {
     let mut paint = Paint::default();
-    paint.set_color_rgba8(r, g, b, 0xff);
+    paint.set_color_rgba8(r, g, b, (255.0 * opacity).round() as u8);
     paint
 }

@@ -98,7 +98,7 @@ impl<'a> Route<'a> {
             let width = width * 1.1;
             shapes.push(Shape::lines(vec![run.clone()], Line::new(PAGE, width + 2.0 * casing(self.layout))));
             let dash = Some((width * 1.6).max(4.0));
-            shapes.push(Shape::lines(vec![run], Line { colour: PURPLE, width, dash }));
+            shapes.push(Shape::lines(vec![run], Line { dash, ..Line::new(PURPLE, width) }));
         }
         shapes
     }

@@ -48,6 +48,8 @@ pub(crate) struct Line {
     pub(crate) width: f64,
     /// Length of the dashes and of the gaps.
     pub(crate) dash: Option<f64>,
+    /// From 0, not to be seen, to 1.
+    pub(crate) opacity: f64,
 }
 
 /// A line of text; `at` is on its base line.
@@ -63,7 +65,7 @@ pub(crate) struct Text {
 
 impl Line {
     pub(crate) const fn new(colour: Rgb, width: f64) -> Self {
-        Self { colour, width, dash: None }
+        Self { colour, width, dash: None, opacity: 1.0 }
     }
 }
 

@@ -72,6 +72,9 @@ impl Svg {
         let Some(line) = line else { return };
         let width = number(line.width);
         self.put(format_args!(" stroke=\"{}\" stroke-width=\"{width}\"", line.colour.hex()));
+        if line.opacity < 1.0 {
+            self.put(format_args!(" stroke-opacity=\"{}\"", number(line.opacity)));
+        }
         if let Some(dash) = line.dash {
             self.put(format_args!(" stroke-dasharray=\"{}\" stroke-linecap=\"butt\"", number(dash)));
         }
