@@ -51,6 +51,9 @@ pub(crate) struct FleetArgs {
     /// Write the plan: .txt as MAPF tools share it, .json with the map, or .paths; can be given more than once
     #[arg(long, value_name = "PLAN.txt|.json|.paths")]
     pub(crate) save: Vec<PathBuf>,
+    /// Draw the plan: .svg and .png show the ways, or of many robots the traffic; .gif shows them moving. Can be given more than once
+    #[arg(long, value_name = "FILE.svg|.png|.gif")]
+    pub(crate) picture: Vec<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

@@ -1,5 +1,6 @@
 //! `activecell fleet`: a plan for many robots at once.
 
+use super::outputs::{self, Kind};
 use super::{Done, counted, load, team};
 use crate::args::{FleetArgs, WrongArgument};
 use crate::terminal::Terminal;
@@ -8,6 +9,7 @@ use activecell_fleet::{Ending, Limits, Options, Outcome, solve};
 use activecell_formats::files;
 use activecell_formats::fleet::FleetReport;
 use activecell_formats::plan::{PlanFile, PlanFormat, Stated};
+use activecell_picture::{FilmLimits, FleetPicture, FleetView, fleet_gif, fleet_png, fleet_svg};
 use anyhow::Context;
 use std::path::Path;
 use std::thread::available_parallelism;
@@ -17,7 +19,7 @@ use std::time::{Duration, Instant};
 const TIME_LIMIT_S: f64 = 10.0;
 
 pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done> {
-    let formats = formats(args)?;
+    let (formats, pictures) = (formats(args)?, outputs::pictures(&args.picture)?);
     let map = load::map(&args.map, None, terminal)?.map;
     let mut team = match (&args.scen, args.robots) {
         (Some(scen), robots) => team::of_scenario(&map, scen, robots)?,
@@ -42,6 +44,12 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
             .context("a wrong plan was made, and is not given out; please report this")?;
     }
     let report = report(args, &map, &team, &outcome, elapsed_ms);
+    if let Some(plan) = &outcome.plan {
+        let title = args.map.path.file_stem().unwrap_or_default().to_string_lossy();
+        let (lower_bound, view) = (Some(report.lower_bound), FleetView::default());
+        let picture = FleetPicture { map: &map, title: &title, team: &team, plan, lower_bound, view };
+        draw(&pictures, &picture, terminal)?;
+    }
     save(args, &formats, map, &team, outcome, &report)?;
     let text = if args.json { serde_json::to_string(&report)? + "\n" } else { text(&report) };
     Terminal::result(&text)?;
@@ -64,23 +72,33 @@ fn options(args: &FleetArgs) -> Options {
 
 /// The formats to save in; refuses what cannot be written before anything is planned.
 fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
-    let mut outputs = args.save.clone();
-    outputs.sort_unstable();
-    if let Some(twice) = outputs.windows(2).find(|pair| pair[0] == pair[1]) {
-        let path = twice[0].display();
-        return Err(WrongArgument(format!("{path} is to be written twice; give each its own name")));
-    }
+    let written = || args.save.iter().chain(&args.picture);
+    outputs::once_each(written())?;
     let mut sources = files::sources(&args.map.path);
     sources.extend(args.scen.clone());
     let sources: Vec<_> = sources.iter().filter_map(|path| path.canonicalize().ok()).collect();
-    if let Some(path) = outputs.iter().find(|path| path.canonicalize().is_ok_and(|it| sources.contains(&it)))
-    {
+    if let Some(path) = written().find(|path| path.canonicalize().is_ok_and(|it| sources.contains(&it))) {
         let path = path.display();
         return Err(WrongArgument(format!("{path}: the task is read from this file; write to another name")));
     }
     let format =
         |path: &std::path::PathBuf| PlanFormat::of(path).map_err(|error| WrongArgument(error.to_string()));
     args.save.iter().map(format).collect()
+}
+
+/// Draws the plan into every picture that was asked for.
+fn draw(pictures: &[(&Path, Kind)], picture: &FleetPicture<'_>, terminal: &Terminal) -> anyhow::Result<()> {
+    for &(path, kind) in pictures {
+        let _working = terminal.working(format!("drawing {}", path.display()));
+        let bytes = match kind {
+            Kind::Svg => fleet_svg(picture).into_bytes(),
+            Kind::Png => fleet_png(picture)?,
+            Kind::Gif => fleet_gif(picture, &FilmLimits::default())?.gif,
+        };
+        files::write_atomically(path, &bytes)?;
+        terminal.detail(&format!("wrote {}", path.display()));
+    }
+    Ok(())
 }
 
 /// Writes the plan, if there is one, into every file that was asked for.

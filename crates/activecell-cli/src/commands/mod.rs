@@ -9,6 +9,7 @@ mod embed;
 mod fleet;
 mod info;
 mod load;
+mod outputs;
 mod relief;
 mod route;
 mod scen;

@@ -3,6 +3,7 @@
 use super::Done;
 use super::certificate::{COLUMN_HEADS, Certified};
 use super::load::{self, Loaded};
+use super::outputs::{self, Kind};
 use crate::args::{DrawArg, PreferArg, RouteArgs, WrongArgument, heading};
 use crate::terminal::Terminal;
 use activecell::{
@@ -12,7 +13,6 @@ use activecell::{
 use activecell_formats::run::{RouteReport, Seconds};
 use activecell_formats::{files, run as run_file};
 use activecell_picture::{RoutePicture, Wave, gif, png, svg, terminal as drawing};
-use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// How many entries of M are printed for people.
@@ -73,7 +73,8 @@ impl Flooded {
 }
 
 pub(crate) fn run(args: &RouteArgs, terminal: &Terminal) -> anyhow::Result<Done> {
-    let pictures = pictures(args)?;
+    let pictures = outputs::pictures(&args.picture)?;
+    outputs::once_each(args.picture.iter().chain(&args.save))?;
     check_preference(args)?;
     let solved = solve(args, terminal)?;
     if let Some(path) = &args.save {
@@ -307,38 +308,6 @@ impl Solved {
             wave,
         }
     }
-}
-
-#[derive(Clone, Copy)]
-enum Kind {
-    Svg,
-    Png,
-    Gif,
-}
-
-/// The pictures that are asked for, each with its kind.
-fn pictures(args: &RouteArgs) -> Result<Vec<(&Path, Kind)>, WrongArgument> {
-    let mut outputs: Vec<&Path> = args.picture.iter().chain(&args.save).map(PathBuf::as_path).collect();
-    outputs.sort_unstable();
-    if let Some(twice) = outputs.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(WrongArgument(format!(
-            "{} is to be written twice; give each its own name",
-            twice[0].display()
-        )));
-    }
-    let kind = |path: &PathBuf| {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        match ending.as_str() {
-            "svg" => Ok(Kind::Svg),
-            "png" => Ok(Kind::Png),
-            "gif" => Ok(Kind::Gif),
-            _ => Err(WrongArgument(format!(
-                "--picture {}: the name must end in .svg, .png or .gif",
-                path.display()
-            ))),
-        }
-    };
-    args.picture.iter().map(|path| Ok((path.as_path(), kind(path)?))).collect()
 }
 
 /// The map for the terminal, if one is wanted there.

@@ -6,12 +6,12 @@ mod plan;
 mod stage;
 mod task;
 
-use super::Done;
+use super::{Done, outputs};
 use crate::args::{ModeArg, SimulateArgs, WrongArgument};
 use crate::terminal::Terminal;
 
 pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> anyhow::Result<Done> {
-    picture::check(args)?;
+    outputs::pictures(&args.picture)?;
     if let Some(file) = plan::read(args, terminal)? {
         return plan::run(args, file, terminal);
     }

@@ -1,7 +1,7 @@
 //! A plan, executed with delays.
 
 use super::super::Done;
-use super::counted;
+use super::super::counted;
 use crate::args::{SimulateArgs, WrongArgument};
 use crate::commands::load;
 use crate::terminal::Terminal;
