@@ -29,8 +29,8 @@ fn executed(map: &Map, plan: &Plan, seed: u64) -> (usize, f64) {
         slow_share: 0.2 * rng.unit(),
         slow_speed: 0.3 + 0.7 * rng.unit(),
         stops: vec![stop],
-        lost_reports: if seed % 2 == 0 { 0.0 } else { 0.5 },
-        turning: seed % 3 == 0,
+        lost_reports: if seed.is_multiple_of(2) { 0.0 } else { 0.5 },
+        turning: seed.is_multiple_of(3),
     };
     let radius_m = match map.lattice() {
         Lattice::Square => 0.3,

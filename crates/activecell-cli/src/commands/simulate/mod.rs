@@ -13,7 +13,7 @@ use crate::terminal::Terminal;
 pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> anyhow::Result<Done> {
     outputs::pictures(&args.picture)?;
     if let Some(file) = plan::read(args, terminal)? {
-        return plan::run(args, file, terminal);
+        return plan::run(args, &file, terminal);
     }
     if let Some(option) = args.delays.given() {
         let path = args.run.display();

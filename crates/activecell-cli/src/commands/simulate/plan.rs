@@ -30,12 +30,12 @@ pub(super) fn read(args: &SimulateArgs, terminal: &Terminal) -> anyhow::Result<O
     Ok(Some(read_plan(&bytes).map_err(|error| error.in_file(&args.run))?))
 }
 
-pub(super) fn run(args: &SimulateArgs, file: PlanFile, terminal: &Terminal) -> anyhow::Result<Done> {
+pub(super) fn run(args: &SimulateArgs, file: &PlanFile, terminal: &Terminal) -> anyhow::Result<Done> {
     if let Some(option) = args.given_for_runs() {
         let path = args.run.display();
         return Err(WrongArgument(format!("{option} is for runs; {path} is a plan")).into());
     }
-    let map = map(args, &file)?;
+    let map = map(args, file)?;
     let robot = match &args.robot {
         Some(path) => load::robot(path)?,
         None => Robot { radius_m: usual_radius(map.lattice()) * map.frame().cell_m, ..Robot::default() },
