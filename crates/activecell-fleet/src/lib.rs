@@ -22,11 +22,13 @@
 mod arbitrate;
 mod fields;
 mod floor;
+mod room;
 mod search;
 mod solve;
 
 pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
+pub use room::Room;
 pub use search::{Advance, Search};
-pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};
+pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve, solve_past};

@@ -7,10 +7,16 @@
 //!
 //! Source of the model: R. Stern et al., *Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks*, `SoCS` 2019.
 
+mod bodies;
 mod check;
+mod keep_out;
 mod plan;
+mod strangers;
 mod team;
 
-pub use check::{PlanFault, check_plan};
+pub use bodies::Bodies;
+pub use check::{PlanFault, check_keep_outs, check_plan};
+pub use keep_out::{KeepOut, KeepOuts};
 pub use plan::Plan;
+pub use strangers::{Detection, MemberRecord, detections, strangers};
 pub use team::Team;
