@@ -23,6 +23,10 @@ const RESTARTS: f64 = 0.001;
 /// How many nodes the search may add before it starts over, beside those that the longest way asks for.
 const PATIENCE: usize = 500;
 
+/// After so many steps in a row that failed, the search looks at most so many steps earlier.
+const REFUSALS: u32 = 30;
+const EARLIER: u32 = 60;
+
 /// What one step of the search brought.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advance {
@@ -71,6 +75,8 @@ pub struct Search<'a> {
     patience: usize,
     /// Nodes when the search last set out from the start.
     dive_start: usize,
+    /// Steps that failed since the last that did not.
+    refused: u32,
 }
 
 impl<'a> Search<'a> {
@@ -111,6 +117,7 @@ impl<'a> Search<'a> {
             priorities: Priorities::default(),
             patience,
             dive_start: 0,
+            refused: 0,
         }
     }
 
@@ -182,9 +189,29 @@ impl<'a> Search<'a> {
         let node = self.nodes.get(number);
         self.arbiter.set_time(node.time);
         if !self.arbiter.step(&node.cells, &mut self.next, self.priorities.order(), &fixed) {
+            self.go_back(number);
             return Advance::Searching;
         }
+        self.refused = 0;
         self.reach(number)
+    }
+
+    /// Where cells close, robots may get caught together: after some vain tries at one time the search looks earlier. What
+    /// it leaves stays open. Without closed cells a step fails only if robots are told where to go.
+    fn go_back(&mut self, number: u32) {
+        self.refused += 1;
+        if self.refused < REFUSALS || self.arbiter.time_after(0) == 0 {
+            return;
+        }
+        self.refused = 0;
+        let (mut earlier, most) = (number, self.rng.below(EARLIER));
+        for _ in 0..=most {
+            earlier = match self.nodes.get(earlier).parent {
+                NONE => break,
+                parent => parent,
+            };
+        }
+        self.open.push(earlier);
     }
 
     /// The next orders of a node; those with one robot more are noted. Fills the priorities.

@@ -193,9 +193,9 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
         }
     }
     if team.bodies().are_cells() {
-        check_cells(map, plan)?
+        check_cells(map, plan)?;
     } else {
-        check_bodies(map, team, plan)?
+        check_bodies(map, team, plan)?;
     }
     let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
     for (robot, (&cell, &target)) in ends {

@@ -145,7 +145,7 @@ impl Team {
     pub fn lower_bound(&self, map: &Map) -> Result<Option<u64>, Error> {
         let radii = (0..self.robots()).map(|robot| self.bodies.radius(robot));
         let mut sum = 0;
-        for radius in BTreeSet::from_iter(radii.clone()) {
+        for radius in radii.clone().collect::<BTreeSet<u32>>() {
             let map = map.for_body(radius);
             let mut search = Search::new(&map);
             let ends = self.starts.iter().zip(&self.targets).zip(radii.clone());
