@@ -98,7 +98,7 @@ fn what_cannot_be_is_told_from_what_was_not_found() {
     let path = folder.path();
     for (arguments, words) in [
         ("pipe.txt --scen pipe.scen", "fleet: 2 robots, no plan exists\n"),
-        ("walls.txt --scen walls.scen", "fleet: 1 robots, no plan exists\n"),
+        ("walls.txt --scen walls.scen", "fleet: 1 robot, no plan exists\n"),
         ("rooms.map --scen rooms.scen --step-limit 1", "fleet: 4 robots, no plan found\n"),
     ] {
         let (code, stdout, stderr) = run(path, &format!("fleet {arguments} --save never.txt"));
@@ -299,4 +299,29 @@ fn what_cannot_be_planned_or_checked_is_told_in_one_line() {
         assert!(stderr.contains(expected), "{arguments}: {stderr}");
         assert!(expected.is_empty() || stderr.lines().count() == 1, "{stderr}");
     }
+}
+
+/// Real scenarios, planned, saved in every format, and checked.
+#[test]
+fn real_scenarios_are_planned_saved_and_checked() {
+    let project = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."));
+    let data = project.join(std::env::var_os("ACTIVECELL_DATA").unwrap_or_else(|| "../shared/data".into()));
+    let Ok(entries) = fs::read_dir(data.join("mapf")) else {
+        println!("SKIPPED: {} not found; set ACTIVECELL_DATA to the folder of real maps", data.display());
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let mut scenarios: Vec<_> = entries.map(|entry| entry.unwrap().path()).collect();
+    scenarios.retain(|path| path.to_string_lossy().ends_with("-random-1.scen"));
+    scenarios.sort();
+    for (number, scen) in scenarios.iter().enumerate() {
+        let map = scen.display().to_string().replace("-random-1.scen", ".map");
+        let scen = scen.display();
+        let ending = ["txt", "json", "paths"][number % 3];
+        let plan = format!("fleet {map} --scen {scen} -n 100 --first --json --save plan.{ending}");
+        let made = json(folder.path(), &plan, &[0]);
+        let check = json(folder.path(), &format!("check {map} plan.{ending} --scen {scen} --json"), &[0]);
+        assert_eq!((&check["robots"], &check["sum_of_costs"]), (&json!(100), &made["sum_of_costs"]), "{map}");
+    }
+    assert!(scenarios.len() > 5, "{scenarios:?}");
 }

@@ -1,6 +1,6 @@
 //! `activecell check`: whether a plan keeps the rules, whoever made it.
 
-use super::{load, team};
+use super::{counted, load, team};
 use crate::args::{CheckArgs, LatticeArg, MapArgs, WrongArgument};
 use crate::terminal::Terminal;
 use activecell::{Lattice, Team, check_moves, check_plan};
@@ -62,10 +62,11 @@ fn on_lattice(mut args: MapArgs, said: Option<Lattice>) -> Result<MapArgs, Wrong
 }
 
 fn text(report: &CheckReport) -> String {
-    let CheckReport { robots, steps, sum_of_costs, makespan, .. } = report;
+    let CheckReport { sum_of_costs, makespan, .. } = report;
+    let (robots, steps) = (counted(report.robots as u64, "robot"), counted(report.steps as u64, "step"));
     let arrive = if report.targets_known { ", all arrive" } else { "; nothing says where they should end" };
     let mut text = format!(
-        "sound: {robots} robots, {steps} steps{arrive}\nsum of costs   {sum_of_costs}\nmakespan       {makespan}\n"
+        "sound: {robots}, {steps}{arrive}\nsum of costs   {sum_of_costs}\nmakespan       {makespan}\n"
     );
     for Disagreement { what, stated, found } in &report.disagreements {
         let what = what.replace('_', " ");

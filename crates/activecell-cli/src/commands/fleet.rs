@@ -1,6 +1,6 @@
 //! `activecell fleet`: a plan for many robots at once.
 
-use super::{Done, load, team};
+use super::{Done, counted, load, team};
 use crate::args::{FleetArgs, WrongArgument};
 use crate::terminal::Terminal;
 use activecell::{Map, Team, check_plan};
@@ -26,10 +26,10 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
     let options = options(args);
     let clock = Instant::now();
     let outcome = {
-        let robots = team.robots();
-        let working = terminal.working(format!("{robots} robots: looking for a plan"));
+        let robots = counted(team.robots() as u64, "robot");
+        let working = terminal.working(format!("{robots}: looking for a plan"));
         solve(&map, &team, &options, |found| {
-            working.say(format!("{robots} robots: sum of costs {}, looking for better", found.sum_of_costs));
+            working.say(format!("{robots}: sum of costs {}, looking for better", found.sum_of_costs));
         })?
     };
     let elapsed_ms = clock.elapsed().as_secs_f64() * 1e3;
@@ -144,11 +144,12 @@ fn peak_bytes() -> Option<u64> {
 }
 
 fn text(report: &FleetReport) -> String {
-    let FleetReport { robots, lower_bound, .. } = report;
+    let FleetReport { lower_bound, .. } = report;
+    let robots = counted(report.robots as u64, "robot");
     let ended = format!("after {}, {}", duration(report.elapsed_ms), ending(report));
     let (Some(cost), Some(makespan)) = (report.sum_of_costs, report.makespan) else {
         let what = if report.ending == "exhausted" { "no plan exists" } else { "no plan found" };
-        return format!("fleet: {robots} robots, {what}\nended          {ended}\n");
+        return format!("fleet: {robots}, {what}\nended          {ended}\n");
     };
     let ratio = match (cost, *lower_bound) {
         (0, _) | (_, 0) => String::new(),
@@ -164,7 +165,7 @@ fn text(report: &FleetReport) -> String {
         format!("first plan     {cost} after {}; {better} since\n", duration(ms))
     });
     format!(
-        "fleet: {robots} robots, all arrive\nsum of costs   {cost}{ratio}\nmakespan       {makespan} steps\n{first}ended          {ended}\n"
+        "fleet: {robots}, all arrive\nsum of costs   {cost}{ratio}\nmakespan       {makespan} steps\n{first}ended          {ended}\n"
     )
 }
 

@@ -57,3 +57,8 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
     }
     Ok(Done::Reached)
 }
+
+/// `1 trial`, `2 trials`.
+fn counted(count: u64, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
+}
