@@ -90,6 +90,11 @@ impl Terminal {
 pub(crate) struct Working(ProgressBar);
 
 impl Working {
+    /// What is being done now.
+    pub(crate) fn say(&self, what: impl Into<String>) {
+        self.0.set_message(what.into());
+    }
+
     /// One more is done.
     pub(crate) fn step(&self) {
         self.0.inc(1);

@@ -47,7 +47,12 @@ fn traps() -> tempfile::TempDir {
     let row = |row: &str| {
         format!("time_s,x_m,y_m,bearing_rad,left_ticks,right_ticks\n0,0,0,0,0,0\n{row}\n").into_bytes()
     };
-    let written: [(&str, Vec<u8>); 24] = [
+    let written: [(&str, Vec<u8>); 25] = [
+        (
+            "vast.json",
+            b"{\"activecell\":\"plan\",\"version\":1,\"lattice\":\"hex\",\"steps\":99999999,\"robots\":[{\"start\":[0,0],\"moves\":\"\"}]}"
+                .to_vec(),
+        ),
         ("tiny.toml", b"wheel_perimeter_m = 1e-310\n".to_vec()),
         ("zero.yaml", yaml("/dev/zero", "0.05").into_bytes()),
         ("huge.map", b"type octile\nheight 4\nwidth 4000000000\nmap\n....\n".to_vec()),
@@ -124,6 +129,7 @@ fn bad_input_gets_one_clear_line() {
         (format!("route zero.yaml {cells}"), 1, "is no regular file"),
         ("convert ok.txt out.bmp".into(), 2, "out.bmp: the ending names no map format"),
         ("scen ok.txt".into(), 1, "ok.txt line 1"),
+        ("check ok.txt vast.json".into(), 1, "vast.json: 1 robots with 99999999 steps need 800000000 bytes"),
     ];
     for (arguments, code, message) in cases {
         refused(folder.path(), &arguments, code, message);

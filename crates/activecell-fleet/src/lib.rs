@@ -22,6 +22,8 @@
 mod arbitrate;
 mod fields;
 mod floor;
+mod passage;
+mod refine;
 mod room;
 mod search;
 mod solve;
@@ -29,6 +31,8 @@ mod solve;
 pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
+pub use passage::{Layout, Passage, Reservations};
+pub use refine::Refiner;
 pub use room::Room;
 pub use search::{Advance, Search};
 pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve, solve_past};

@@ -11,6 +11,9 @@
 //! | [`calibration`] | what a calibration found: JSON |
 //! | [`run`] | routes and runs: JSON |
 //! | [`certificate`] | certificates, in the routes' JSON |
+//! | [`plan`] | plans of groups: the text that MAPF tools share, JSON, paths |
+//! | [`fleet`] | reports on groups and their plans: JSON |
+//! | [`lorr`] | lifelong tasks of the League of Robot Runners: JSON, lists, CSV |
 //! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
 //!
@@ -35,7 +38,11 @@ pub mod drive_log;
 pub mod elevation;
 mod error;
 pub mod files;
+pub mod fleet;
+mod lines;
+pub mod lorr;
 pub mod movingai;
+pub mod plan;
 pub mod raster;
 mod read_run;
 pub mod robot;

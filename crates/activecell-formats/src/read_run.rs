@@ -142,7 +142,7 @@ fn not_json(error: &serde_json::Error) -> Error {
 
 impl MapRows {
     /// The map that the rows show.
-    fn map(self) -> Result<Map, Error> {
+    pub(crate) fn map(self) -> Result<Map, Error> {
         let lattice = Lattice::ALL.into_iter().find(|lattice| lattice.name() == self.lattice);
         let lattice = lattice.ok_or_else(|| {
             Error::file(format!("map.lattice is {}; it must be square or hex", quoted(&self.lattice)))

@@ -146,6 +146,15 @@ pub enum Error {
         /// How far apart their centres must be at least, in cells.
         least: u32,
     },
+    /// A connected part of the floor has more targets than robots.
+    TooFewRobots {
+        /// A target in it that would get no robot.
+        cell: Cell,
+        /// Robots that start in it.
+        robots: usize,
+        /// Targets in it.
+        targets: usize,
+    },
     /// The cells of a plan are not a whole number of steps.
     PlanSize {
         /// Robots of the plan.
@@ -212,6 +221,14 @@ impl fmt::Display for Error {
                 f,
                 "robots {a} and {b} at {at_a} and {at_b} are too close; their centres must be at least {least} cells apart"
             ),
+            Self::TooFewRobots { cell, robots, targets } => {
+                let s = if *robots == 1 { "" } else { "s" };
+                let of = if *targets == 1 { "1 target" } else { &format!("{targets} targets") };
+                write!(
+                    f,
+                    "the part of the floor around {cell} has {robots} robot{s} for {of}; give it a robot for each target"
+                )
+            }
             Self::PlanSize { robots, cells } => write!(
                 f,
                 "a plan of {cells} cells for {robots} robots; give a cell for every robot at every step, the start included"

@@ -1,6 +1,7 @@
 //! The command line: every option and its help.
 
 mod calibrate;
+mod fleet;
 mod ground;
 mod place;
 mod simulate;
@@ -8,6 +9,7 @@ mod simulate;
 use activecell::{Lattice, Rule};
 pub(crate) use calibrate::CalibrateArgs;
 use clap::{Args, Parser, Subcommand, ValueEnum};
+pub(crate) use fleet::{CheckArgs, FleetArgs};
 pub(crate) use ground::GroundArgs;
 pub(crate) use place::{Place, heading};
 pub(crate) use simulate::{ModeArg, SimulateArgs};
@@ -17,6 +19,7 @@ const EXAMPLES: &str = "\
 Examples:
   activecell route maps/beyond.txt --from S --to F --rule published
   activecell route maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m --picture route.svg
+  activecell fleet maps/warehouse.map --scen maps/warehouse.scen --time-limit 1
   activecell info maps/office.yaml --cell 0.5 --radius 0.2 --lattice hex
   activecell table success
 
@@ -41,6 +44,8 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     Route(RouteArgs),
     Simulate(SimulateArgs),
+    Fleet(FleetArgs),
+    Check(CheckArgs),
     Scen(ScenArgs),
     Info(InfoArgs),
     Convert(ConvertArgs),

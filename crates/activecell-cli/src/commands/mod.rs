@@ -2,9 +2,11 @@
 
 mod calibrate;
 mod certificate;
+mod check;
 mod control;
 mod convert;
 mod embed;
+mod fleet;
 mod info;
 mod load;
 mod relief;
@@ -13,6 +15,7 @@ mod scen;
 mod simulate;
 mod success;
 mod table;
+mod team;
 
 use crate::args::{Cli, Command, TableKind};
 use crate::terminal::Terminal;
@@ -32,6 +35,8 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
     match command {
         Command::Route(args) => return route::run(&args, terminal),
         Command::Simulate(args) => return simulate::run(&args, terminal),
+        Command::Fleet(args) => return fleet::run(&args, terminal),
+        Command::Check(args) => check::run(args, terminal)?,
         Command::Scen(args) => return scen::run(&args, terminal),
         Command::Info(args) => info::run(&args, terminal)?,
         Command::Convert(args) => convert::run(&args, terminal)?,
@@ -51,4 +56,9 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
         }
     }
     Ok(Done::Reached)
+}
+
+/// `1 trial`, `2 trials`.
+fn counted(count: u64, noun: &str) -> String {
+    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
 }

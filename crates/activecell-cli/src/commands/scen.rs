@@ -36,8 +36,7 @@ struct Row {
 }
 
 pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> {
-    let bytes = files::read_bytes(&args.scen, SCEN_BYTES)?;
-    let tasks = movingai::read_scen(&bytes).map_err(|error| error.in_file(&args.scen))?;
+    let tasks = read(&args.scen)?;
     let map_path = match (&args.map, tasks.first()) {
         (Some(path), _) => path.clone(),
         (None, Some(task)) => beside(&args.scen, &task.map)?,
@@ -67,12 +66,18 @@ pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> 
     Ok(if arrived == report.tasks { Done::Reached } else { Done::NotReached })
 }
 
+/// The tasks of a scenario.
+pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Task>> {
+    let bytes = files::read_bytes(path, SCEN_BYTES)?;
+    Ok(movingai::read_scen(&bytes).map_err(|error| error.in_file(path))?)
+}
+
 /// Whether the task was made for a map of this size; 0 × 0 says nothing.
-fn fits(task: &Task, map: &Map) -> anyhow::Result<()> {
+pub(super) fn fits(task: &Task, map: &Map) -> anyhow::Result<()> {
     let (asked, given) = ((task.width, task.height), (map.width(), map.height()));
     anyhow::ensure!(
         asked == given || asked == (0, 0),
-        "the task is for a map of {} x {} cells, this one has {} x {}; name the right map with --map",
+        "the task is for a map of {} x {} cells, this one has {} x {}; name the right map",
         asked.0,
         asked.1,
         given.0,

@@ -193,7 +193,7 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
         }
     }
     if team.bodies().are_cells() {
-        check_cells(map, plan)?;
+        check_moves(map, plan)?;
     } else {
         check_bodies(map, team, plan)?;
     }
@@ -206,8 +206,20 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
     Ok(())
 }
 
-/// Checks that robots of one cell move by the rules.
-fn check_cells(map: &Map, plan: &Plan) -> Result<(), PlanFault> {
+/// Checks what [`check_plan`] checks but starts and targets: that all stay on free cells, step to neighbours, and never
+/// meet or swap.
+///
+/// # Errors
+/// The first [`PlanFault`]: of the earliest step, there of the robot with the lowest number.
+///
+/// ```
+/// use activecell::{Cell, Lattice, Map, Plan, check_moves};
+/// let map = Map::parse(Lattice::Square, "...")?;
+/// let plan = Plan::new(1, vec![Cell::new(0, 0), Cell::new(2, 0)])?;
+/// assert_eq!(check_moves(&map, &plan).unwrap_err().to_string(), "step 1: robot 0 jumps from (0,0) to (2,0)");
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn check_moves(map: &Map, plan: &Plan) -> Result<(), PlanFault> {
     let mut before = Standing::new(map);
     let mut now = Standing::new(map);
     for (step, row) in plan.rows().enumerate() {

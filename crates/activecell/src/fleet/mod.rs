@@ -7,6 +7,7 @@
 //!
 //! Source of the model: R. Stern et al., *Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks*, `SoCS` 2019.
 
+mod assign;
 mod bodies;
 mod check;
 mod keep_out;
@@ -15,7 +16,7 @@ mod strangers;
 mod team;
 
 pub use bodies::Bodies;
-pub use check::{PlanFault, check_keep_outs, check_plan};
+pub use check::{PlanFault, check_keep_outs, check_moves, check_plan};
 pub use keep_out::{KeepOut, KeepOuts};
 pub use plan::Plan;
 pub use strangers::{Detection, MemberRecord, detections, strangers};

@@ -4,6 +4,7 @@ use super::bodies::{Bodies, Standing};
 use crate::error::Error;
 use crate::lattice::Cell;
 use crate::map::Map;
+use crate::rng::Rng;
 use crate::search::Search;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -117,6 +118,35 @@ impl Team {
         Ok(())
     }
 
+    /// A group with starts and targets by chance, all on the map's [largest region](Map::largest_region), so that no
+    /// robot's way to its target is closed by obstacles.
+    ///
+    /// # Errors
+    /// [`Error::TeamSize`] if the robots are more than the region's cells.
+    ///
+    /// ```
+    /// use activecell::{Lattice, Map, Team};
+    /// let map = Map::parse(Lattice::Square, "....\n.##.")?;
+    /// let team = Team::random(&map, 3, 1)?;
+    /// assert_eq!((team.robots(), &team), (3, &Team::random(&map, 3, 1)?)); // the seed decides
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn random(map: &Map, robots: usize, seed: u64) -> Result<Self, Error> {
+        let mut cells = map.largest_region();
+        if robots > cells.len() {
+            return Err(Error::TeamSize { starts: robots, targets: robots, free: cells.len() });
+        }
+        let mut rng = Rng::new(seed);
+        let mut draw = || {
+            for drawn in 0..robots {
+                let other = drawn + rng.below((cells.len() - drawn) as u32) as usize;
+                cells.swap(drawn, other);
+            }
+            cells[..robots].to_vec()
+        };
+        Self::new(map, draw(), draw())
+    }
+
     /// How many robots there are.
     pub const fn robots(&self) -> usize {
         self.starts.len()
@@ -159,7 +189,7 @@ impl Team {
 }
 
 /// Two that have the same cell: the first that meets it again, and who had it before.
-fn shared(cells: &[Cell]) -> Option<([usize; 2], Cell)> {
+pub(super) fn shared(cells: &[Cell]) -> Option<([usize; 2], Cell)> {
     let mut owners = BTreeMap::new();
     cells.iter().enumerate().find_map(|(robot, &cell)| {
         let before = owners.insert(cell, robot)?;

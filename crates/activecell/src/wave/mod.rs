@@ -179,24 +179,46 @@ impl Map {
     /// # Ok::<(), activecell::Error>(())
     /// ```
     pub fn regions(&self) -> Vec<usize> {
+        let mut sizes: Vec<usize> = self.parts().map(|part| part.len()).collect();
+        sizes.sort_unstable_by(|a, b| b.cmp(a));
+        sizes
+    }
+
+    /// The cells of the largest of the [`regions`](Self::regions), row by row; of equally large ones, of the first.
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice, Map};
+    /// let map = Map::parse(Lattice::Square, "..#\n.#.")?;
+    /// assert_eq!(map.largest_region(), [Cell::new(0, 0), Cell::new(1, 0), Cell::new(0, 1)]);
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn largest_region(&self) -> Vec<Cell> {
+        let mut largest = Vec::new();
+        for part in self.parts() {
+            if part.len() > largest.len() {
+                largest = part;
+            }
+        }
+        largest.sort_unstable_by_key(|cell| (cell.y, cell.x));
+        largest
+    }
+
+    /// The cells of each part of the floor.
+    fn parts(&self) -> impl Iterator<Item = Vec<Cell>> + '_ {
         let mut seen = vec![false; self.cells()];
-        let mut regions = Vec::new();
-        for origin in self.free() {
+        self.free().filter_map(move |origin| {
+            let mut new =
+                |cell| self.index(cell).is_some_and(|index| !std::mem::replace(&mut seen[index], true));
+            let mut part = Vec::new();
             let mut rim = vec![origin];
-            let mut size = 0;
             while let Some(cell) = rim.pop() {
-                let new = self.index(cell).is_some_and(|index| !std::mem::replace(&mut seen[index], true));
-                if new && self.is_free(cell) {
-                    size += 1;
+                if self.is_free(cell) && new(cell) {
+                    part.push(cell);
                     rim.extend(self.lattice().dirs().map(|dir| self.lattice().neighbour(cell, dir)));
                 }
             }
-            if size > 0 {
-                regions.push(size);
-            }
-        }
-        regions.sort_unstable_by(|a, b| b.cmp(a));
-        regions
+            (!part.is_empty()).then_some(part)
+        })
     }
 }
 

@@ -22,8 +22,3 @@ pub(crate) fn run(args: &SimulateArgs, terminal: &Terminal) -> anyhow::Result<Do
 fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
-
-/// `1 trial`, `2 trials`.
-fn counted(count: u64, noun: &str) -> String {
-    format!("{count} {noun}{}", if count == 1 { "" } else { "s" })
-}

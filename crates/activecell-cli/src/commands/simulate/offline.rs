@@ -1,8 +1,9 @@
 //! The offline mode: the program alone, driven many times.
 
 use super::super::Done;
+use super::super::counted;
 use super::stage::Stage;
-use super::{counted, percent, picture};
+use super::{percent, picture};
 use crate::args::SimulateArgs;
 use crate::terminal::Terminal;
 use activecell::sim::{Offline, Trial, trial_rng, trials};

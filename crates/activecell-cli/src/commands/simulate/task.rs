@@ -1,8 +1,9 @@
 //! The task mode: the run's errand, corrected by the control unit and the sensors.
 
 use super::super::Done;
+use super::super::counted;
 use super::stage::Stage;
-use super::{counted, percent, picture};
+use super::{percent, picture};
 use crate::args::SimulateArgs;
 use crate::terminal::Terminal;
 use activecell::sim::{Ending, Sighting, Tally, Task, Tick, Trace, trial_rng, trials};

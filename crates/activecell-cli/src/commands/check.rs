@@ -1,0 +1,76 @@
+//! `activecell check`: whether a plan keeps the rules, whoever made it.
+
+use super::{counted, load, team};
+use crate::args::{CheckArgs, LatticeArg, MapArgs, WrongArgument};
+use crate::terminal::Terminal;
+use activecell::{Lattice, Team, check_moves, check_plan};
+use activecell_formats::files;
+use activecell_formats::fleet::{CheckReport, Disagreement};
+use activecell_formats::plan::{MAX_PLAN_BYTES, read_plan};
+
+pub(crate) fn run(args: CheckArgs, terminal: &Terminal) -> anyhow::Result<()> {
+    let CheckArgs { map: map_args, plan: path, scen, json } = args;
+    let bytes = files::read_bytes(&path, MAX_PLAN_BYTES)?;
+    let file = read_plan(&bytes).map_err(|error| error.in_file(&path))?;
+    drop(bytes);
+    let map = load::map(&on_lattice(map_args, file.lattice)?, None, terminal)?.map;
+    if file.map.as_ref().is_some_and(|made_on| made_on.obstacles() != map.obstacles()) {
+        terminal.note("note: the plan was made on another map");
+    }
+    let robots = file.plan.robots();
+    let team = match &scen {
+        Some(scen) => Ok(team::of_scenario(&map, scen, Some(robots))?),
+        None => Team::new(&map, file.starts().to_vec(), file.targets().to_vec()),
+    };
+    let fault = match &team {
+        Ok(team) => check_plan(&map, team, &file.plan).err(),
+        // What a robot does wrong says more than a team that cannot be.
+        Err(_) => check_moves(&map, &file.plan).err(),
+    };
+    if let (None, Err(error)) = (fault, team) {
+        return Err(anyhow::Error::new(error).context(path.display().to_string()));
+    }
+    let stated = [file.stated.sum_of_costs, file.stated.makespan];
+    let report = CheckReport {
+        targets_known: scen.is_some() || file.targets.is_some(),
+        ..CheckReport::new(&file.plan, map.lattice(), fault, stated)
+    };
+    if json {
+        Terminal::result(&(serde_json::to_string(&report)? + "\n"))?;
+    } else if fault.is_none() {
+        Terminal::result(&text(&report))?;
+    }
+    match fault {
+        Some(fault) => Err(anyhow::Error::new(fault).context(path.display().to_string())),
+        None => Ok(()),
+    }
+}
+
+/// The arguments with the plan's lattice, where it is said.
+fn on_lattice(mut args: MapArgs, said: Option<Lattice>) -> Result<MapArgs, WrongArgument> {
+    let asked = Lattice::from(args.lattice);
+    match said {
+        Some(Lattice::Square) if asked == Lattice::Hex => {
+            Err(WrongArgument("--lattice hex: the plan says that it is for squares".to_owned()))
+        }
+        Some(Lattice::Hex) => {
+            args.lattice = LatticeArg::Hex;
+            Ok(args)
+        }
+        _ => Ok(args),
+    }
+}
+
+fn text(report: &CheckReport) -> String {
+    let CheckReport { sum_of_costs, makespan, .. } = report;
+    let (robots, steps) = (counted(report.robots as u64, "robot"), counted(report.steps as u64, "step"));
+    let arrive = if report.targets_known { ", all arrive" } else { "; nothing says where they should end" };
+    let mut text = format!(
+        "sound: {robots}, {steps}{arrive}\nsum of costs   {sum_of_costs}\nmakespan       {makespan}\n"
+    );
+    for Disagreement { what, stated, found } in &report.disagreements {
+        let what = what.replace('_', " ");
+        text += &format!("the file states a {what} of {stated}, but it is {found}\n");
+    }
+    text
+}

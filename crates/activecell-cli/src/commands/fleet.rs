@@ -1,0 +1,189 @@
+//! `activecell fleet`: a plan for many robots at once.
+
+use super::{Done, counted, load, team};
+use crate::args::{FleetArgs, WrongArgument};
+use crate::terminal::Terminal;
+use activecell::{Map, Team, check_plan};
+use activecell_fleet::{Ending, Limits, Options, Outcome, solve};
+use activecell_formats::files;
+use activecell_formats::fleet::FleetReport;
+use activecell_formats::plan::{PlanFile, PlanFormat, Stated};
+use anyhow::Context;
+use std::path::Path;
+use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
+
+/// How long to look for better plans where nobody says, in seconds.
+const TIME_LIMIT_S: f64 = 10.0;
+
+pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done> {
+    let formats = formats(args)?;
+    let map = load::map(&args.map, None, terminal)?.map;
+    let team = match (&args.scen, args.robots) {
+        (Some(scen), robots) => team::of_scenario(&map, scen, robots)?,
+        (None, robots) => team::by_chance(&map, robots.unwrap_or_default(), args.seed)?,
+    };
+    let options = options(args);
+    let clock = Instant::now();
+    let outcome = {
+        let robots = counted(team.robots() as u64, "robot");
+        let working = terminal.working(format!("{robots}: looking for a plan"));
+        solve(&map, &team, &options, |found| {
+            working.say(format!("{robots}: sum of costs {}, looking for better", found.sum_of_costs));
+        })?
+    };
+    let elapsed_ms = clock.elapsed().as_secs_f64() * 1e3;
+    if let Some(plan) = &outcome.plan {
+        check_plan(&map, &team, plan)
+            .context("a wrong plan was made, and is not given out; please report this")?;
+    }
+    let report = report(args, &map, &team, &outcome, elapsed_ms);
+    save(args, &formats, map, &team, outcome, &report)?;
+    let text = if args.json { serde_json::to_string(&report)? + "\n" } else { text(&report) };
+    Terminal::result(&text)?;
+    Ok(if report.solved { Done::Reached } else { Done::NotReached })
+}
+
+fn options(args: &FleetArgs) -> Options {
+    let time_s = args.time_limit.or(args.step_limit.is_none().then_some(TIME_LIMIT_S));
+    Options {
+        seed: args.seed,
+        threads: args.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from),
+        limits: Limits {
+            time: time_s.map(Duration::from_secs_f64),
+            steps: args.step_limit,
+            first: args.first,
+            ..Limits::default()
+        },
+    }
+}
+
+/// The formats to save in; refuses what cannot be written before anything is planned.
+fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
+    let mut outputs = args.save.clone();
+    outputs.sort_unstable();
+    if let Some(twice) = outputs.windows(2).find(|pair| pair[0] == pair[1]) {
+        let path = twice[0].display();
+        return Err(WrongArgument(format!("{path} is to be written twice; give each its own name")));
+    }
+    let mut sources = files::sources(&args.map.path);
+    sources.extend(args.scen.clone());
+    let sources: Vec<_> = sources.iter().filter_map(|path| path.canonicalize().ok()).collect();
+    if let Some(path) = outputs.iter().find(|path| path.canonicalize().is_ok_and(|it| sources.contains(&it)))
+    {
+        let path = path.display();
+        return Err(WrongArgument(format!("{path}: the task is read from this file; write to another name")));
+    }
+    let format =
+        |path: &std::path::PathBuf| PlanFormat::of(path).map_err(|error| WrongArgument(error.to_string()));
+    args.save.iter().map(format).collect()
+}
+
+/// Writes the plan, if there is one, into every file that was asked for.
+fn save(
+    args: &FleetArgs,
+    formats: &[PlanFormat],
+    map: Map,
+    team: &Team,
+    outcome: Outcome,
+    report: &FleetReport,
+) -> anyhow::Result<()> {
+    let Some(plan) = outcome.plan else { return Ok(()) };
+    let stated = Stated {
+        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
+        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
+        seed: Some(args.seed),
+        lower_bound: Some(report.lower_bound),
+        comp_time_ms: Some(report.elapsed_ms),
+        ..Stated::default()
+    };
+    let file = PlanFile {
+        lattice: Some(map.lattice()),
+        map: Some(map),
+        starts: Some(team.starts().to_vec()),
+        targets: Some(team.targets().to_vec()),
+        stated,
+        ..PlanFile::new(plan)
+    };
+    for (path, &format) in args.save.iter().zip(formats) {
+        let text = file.write(format).map_err(|error| error.in_file(path))?;
+        files::write_atomically(path, text.as_bytes())?;
+    }
+    Ok(())
+}
+
+fn report(args: &FleetArgs, map: &Map, team: &Team, outcome: &Outcome, elapsed_ms: f64) -> FleetReport {
+    let history = outcome.history.iter().map(|found| (found.ms, found.sum_of_costs));
+    FleetReport {
+        robots: team.robots(),
+        solved: outcome.plan.is_some(),
+        sum_of_costs: outcome.plan.as_ref().map(activecell::Plan::sum_of_costs),
+        makespan: outcome.plan.as_ref().map(activecell::Plan::makespan),
+        lower_bound: outcome.lower_bound,
+        first_solution_ms: outcome.history.first().map(|found| found.ms),
+        elapsed_ms,
+        peak_bytes: peak_bytes().unwrap_or(outcome.bytes as u64),
+        history: history.collect(),
+        ending: match outcome.ending {
+            Ending::Exhausted => "exhausted",
+            Ending::FirstPlan => "first_plan",
+            Ending::Time => "time",
+            Ending::Steps => "steps",
+            Ending::Memory => "memory",
+        },
+        lattice: map.lattice().name(),
+        seed: args.seed,
+    }
+}
+
+/// The most memory that this process has had, where the system tells.
+fn peak_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string(Path::new("/proc/self/status")).ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024)
+}
+
+fn text(report: &FleetReport) -> String {
+    let FleetReport { lower_bound, .. } = report;
+    let robots = counted(report.robots as u64, "robot");
+    let ended = format!("after {}, {}", duration(report.elapsed_ms), ending(report));
+    let (Some(cost), Some(makespan)) = (report.sum_of_costs, report.makespan) else {
+        let what = if report.ending == "exhausted" { "no plan exists" } else { "no plan found" };
+        return format!("fleet: {robots}, {what}\nended          {ended}\n");
+    };
+    let ratio = match (cost, *lower_bound) {
+        (0, _) | (_, 0) => String::new(),
+        (cost, bound) if cost == bound => ", the least possible".to_owned(),
+        (cost, bound) => format!(", {:.3} x the lower bound of {bound}", cost as f64 / bound as f64),
+    };
+    let first = report.history.first().map_or(String::new(), |&(ms, cost)| {
+        let better = match report.history.len() - 1 {
+            0 => "none better".to_owned(),
+            1 => "1 better".to_owned(),
+            more => format!("{more} better"),
+        };
+        format!("first plan     {cost} after {}; {better} since\n", duration(ms))
+    });
+    format!(
+        "fleet: {robots}, all arrive\nsum of costs   {cost}{ratio}\nmakespan       {makespan} steps\n{first}ended          {ended}\n"
+    )
+}
+
+/// Why the search ended, for people.
+fn ending(report: &FleetReport) -> &'static str {
+    match (report.ending, report.solved) {
+        ("exhausted", true) => "nothing left to try",
+        ("exhausted", false) => "every way tried",
+        ("first_plan", _) => "at the first plan",
+        ("time", true) => "at the time limit",
+        ("time", false) => "at the time limit; raise --time-limit, or take fewer robots",
+        ("steps", true) => "at the step limit",
+        ("steps", false) => "at the step limit; raise --step-limit, or take fewer robots",
+        (_, true) => "with its memory full",
+        (_, false) => "with its memory full; take fewer robots",
+    }
+}
+
+fn duration(ms: f64) -> String {
+    if ms < 1e3 { format!("{ms:.1} ms") } else { format!("{:.1} s", ms / 1e3) }
+}
