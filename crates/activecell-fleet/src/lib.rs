@@ -24,6 +24,7 @@ mod fields;
 mod floor;
 mod passage;
 mod refine;
+mod room;
 mod search;
 mod solve;
 
@@ -32,5 +33,6 @@ pub use fields::Fields;
 pub use floor::{Floor, NONE};
 pub use passage::{Layout, Passage, Reservations};
 pub use refine::Refiner;
+pub use room::Room;
 pub use search::{Advance, Search};
-pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};
+pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve, solve_past};

@@ -3,8 +3,9 @@
 use crate::arbitrate::{Arbiter, Goal};
 use crate::fields::Fields;
 use crate::floor::Floor;
+use crate::room::Room;
 use crate::search::{Advance, Search};
-use activecell::{Error, Map, Plan, Team};
+use activecell::{Error, KeepOuts, Map, Plan, Team};
 use std::time::{Duration, Instant};
 
 /// How a plan is looked for.
@@ -127,8 +128,11 @@ pub fn solve(
     watch: impl FnMut(&Improvement),
 ) -> Result<Outcome, Error> {
     let clock = Instant::now();
-    // The team's cells are checked again: the map may be another.
-    let team = Team::new(map, team.starts().to_vec(), team.targets().to_vec())?;
+    // The map may be another.
+    team.check(map)?;
+    if !team.bodies().are_cells() {
+        return solve_in_room(map, team, &KeepOuts::default(), options, watch);
+    }
     let floor = Floor::new(map);
     let numbers =
         |cells: &[activecell::Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
@@ -149,15 +153,82 @@ pub fn solve(
     let search = Search::new(arbiter, &starts, options.seed);
     let mut run = Run { search, clock, best: None, history: Vec::new(), steps: 0, watch };
     let ending = run.until_stopped(&options.limits);
-    let plans = run.best.as_ref().map_or(0, |(_, plan)| plan.bytes());
-    Ok(Outcome {
-        ending,
-        lower_bound: run.search.lower_bound(),
-        steps: run.steps,
-        bytes: floor.bytes() + fields.bytes() + run.search.bytes() + plans,
-        history: run.history,
-        plan: run.best.map(|(_, plan)| plan),
-    })
+    let mut outcome = run.outcome(ending);
+    outcome.bytes += floor.bytes() + fields.bytes();
+    Ok(outcome)
+}
+
+/// The same past cells that are closed for a time; [`activecell::check_keep_outs`] tells whether a plan keeps out of them.
+/// A plan waits or goes round, and leaves targets again while they are closed.
+///
+/// # Errors
+/// As [`solve`].
+///
+/// ```
+/// use activecell::{Cell, KeepOut, KeepOuts, Lattice, Map, Team, check_keep_outs, check_plan};
+/// use activecell_fleet::{Options, solve_past};
+/// let map = Map::parse(Lattice::Square, "A..B")?;
+/// let [a, b] = ['A', 'B'].map(|name| map.mark(name).unwrap());
+/// let team = Team::new(&map, vec![a], vec![b])?;
+/// let keep_outs = KeepOuts::new(&map, vec![KeepOut { cell: Cell::new(2, 0), from_step: 0, to_step: 4 }])?;
+/// let plan = solve_past(&map, &team, &keep_outs, &Options::default(), |_| {})?.plan.unwrap();
+/// assert!(check_plan(&map, &team, &plan).is_ok() && check_keep_outs(&map, &team, &keep_outs, &plan).is_ok());
+/// assert_eq!(plan.sum_of_costs(), 6);
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn solve_past(
+    map: &Map,
+    team: &Team,
+    keep_outs: &KeepOuts,
+    options: &Options,
+    watch: impl FnMut(&Improvement),
+) -> Result<Outcome, Error> {
+    if keep_outs.is_empty() {
+        return solve(map, team, options, watch);
+    }
+    team.check(map)?;
+    solve_in_room(map, team, keep_outs, options, watch)
+}
+
+/// Looks for plans of bodies, or among closed cells. They are not refined: refinement knows robots of one cell only.
+fn solve_in_room(
+    map: &Map,
+    team: &Team,
+    keep_outs: &KeepOuts,
+    options: &Options,
+    watch: impl FnMut(&Improvement),
+) -> Result<Outcome, Error> {
+    let clock = Instant::now();
+    let (floor, room) = (Floor::new(map), Room::new(map, team, keep_outs));
+    let numbers =
+        |cells: &[activecell::Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
+    let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
+    let connected =
+        |(robot, (&start, &target)): (u32, (&u32, &u32))| room.floor(robot).connected(start, target);
+    if room.is_lost() || !(0..).zip(starts.iter().zip(&targets)).all(connected) {
+        let (bytes, ending) = (floor.bytes() + room.bytes(), Ending::Exhausted);
+        return Ok(Outcome { plan: None, ending, history: Vec::new(), lower_bound: 0, steps: 0, bytes });
+    }
+    let mut fields = Fields::new(&floor);
+    let mut goals = vec![Goal { target: 0, slot: 0 }; targets.len()];
+    for (size, floor) in room.floors().iter().enumerate() {
+        // No two robots share a target, so that the fields of all sizes fit into one collection.
+        let robots: Vec<usize> =
+            (0..targets.len()).filter(|&robot| room.size(robot as u32) == size).collect();
+        let own: Vec<u32> = robots.iter().map(|&robot| targets[robot]).collect();
+        for ((robot, target), slot) in
+            robots.into_iter().zip(&own).zip(fields.request(floor, &own, options.threads)?)
+        {
+            goals[robot] = Goal { target: *target, slot };
+        }
+    }
+    let arbiter = Arbiter::new(&floor, &fields, goals, options.seed).in_room(&room);
+    let search = Search::new(arbiter, &starts, options.seed);
+    let mut run = Run { search, clock, best: None, history: Vec::new(), steps: 0, watch };
+    let ending = run.until_stopped(&options.limits);
+    let mut outcome = run.outcome(ending);
+    outcome.bytes += floor.bytes() + room.bytes() + fields.bytes();
+    Ok(outcome)
 }
 
 /// What comes of it if the search does not even begin.
@@ -201,6 +272,19 @@ impl<W: FnMut(&Improvement)> Run<'_, W> {
             self.look();
         }
         ending
+    }
+
+    /// What came of it, without the memory of floor and fields.
+    fn outcome(self, ending: Ending) -> Outcome {
+        let plans = self.best.as_ref().map_or(0, |(_, plan)| plan.bytes());
+        Outcome {
+            ending,
+            lower_bound: self.search.lower_bound(),
+            steps: self.steps,
+            bytes: self.search.bytes() + plans,
+            history: self.history,
+            plan: self.best.map(|(_, plan)| plan),
+        }
     }
 
     fn limit(&self, limits: &Limits) -> Option<Ending> {

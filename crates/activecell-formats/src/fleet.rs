@@ -100,14 +100,16 @@ impl CheckReport {
 /// What is wrong with a plan.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct FaultReport {
-    /// `robots`, `wrong_start`, `outside`, `blocked`, `jump`, `collision`, `swap` or `not_arrived`.
+    /// `robots`, `wrong_start`, `outside`, `blocked`, `jump`, `collision`, `swap`, `no_room`,
+    /// `too_close`, `closed` or `not_arrived`.
     pub kind: &'static str,
     /// The step in which the robots arrive; null if it is no step's fault.
     pub step: Option<usize>,
     /// The robots, counted from 0.
     pub robots: Vec<usize>,
-    /// The cells, [x, y]: where it is; of a jump, whence and whither; of a swap, where each is after it; of a wrong start or
-    /// end, where it is and where it should be.
+    /// The cells, [x, y]: where it is; of a jump, whence and whither; of a swap, where each is after it; of two that
+    /// are too close, where each is; of a body without room or in a closed cell, where it is and that cell; of a wrong start
+    /// or end, where it is and where it should be.
     pub cells: Vec<[i32; 2]>,
     /// All of it in words.
     pub message: String,
@@ -127,6 +129,15 @@ impl From<PlanFault> for FaultReport {
                 ("collision", Some(step), robots.into(), vec![cell])
             }
             PlanFault::Swap { step, robots, cells } => ("swap", Some(step), robots.into(), cells.into()),
+            PlanFault::NoRoom { step, robot, at, covers } => {
+                ("no_room", Some(step), vec![robot], vec![at, covers])
+            }
+            PlanFault::TooClose { step, robots, cells, .. } => {
+                ("too_close", Some(step), robots.into(), cells.into())
+            }
+            PlanFault::Closed { step, robot, at, closed } => {
+                ("closed", Some(step), vec![robot], vec![at, closed])
+            }
             PlanFault::NotArrived { robot, cell, target } => {
                 ("not_arrived", None, vec![robot], vec![cell, target])
             }

@@ -128,6 +128,24 @@ pub enum Error {
         /// Their target.
         cell: Cell,
     },
+    /// A robot that covers several cells has no room there.
+    NoRoom {
+        /// The cell of its centre.
+        at: Cell,
+        /// Its radius in cells.
+        radius: u32,
+        /// A cell that it would cover: an obstacle, or outside the map.
+        covers: Cell,
+    },
+    /// Two robots of a team are too close at their starts or targets.
+    TooClose {
+        /// The robots, counted from 0.
+        robots: [usize; 2],
+        /// Their cells.
+        cells: [Cell; 2],
+        /// How far apart their centres must be at least, in cells.
+        least: u32,
+    },
     /// A connected part of the floor has more targets than robots.
     TooFewRobots {
         /// A target in it that would get no robot.
@@ -200,6 +218,14 @@ impl fmt::Display for Error {
             Self::SharedTarget { robots: [a, b], cell } => {
                 write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
             }
+            Self::NoRoom { at, radius, covers } => write!(
+                f,
+                "a body of radius {radius} at {at} covers {covers}, an obstacle or outside the map; choose a cell with more room"
+            ),
+            Self::TooClose { robots: [a, b], cells: [at_a, at_b], least } => write!(
+                f,
+                "robots {a} and {b} at {at_a} and {at_b} are too close; their centres must be at least {least} cells apart"
+            ),
             Self::TooFewRobots { cell, robots, targets } => {
                 let s = if *robots == 1 { "" } else { "s" };
                 let of = if *targets == 1 { "1 target" } else { &format!("{targets} targets") };

@@ -188,6 +188,50 @@ impl Lattice {
         }
     }
 
+    /// The radius of the least [`block`](Self::block) around `a` that holds `b`: on hexagons the steps between them, on
+    /// squares those of a chess king.
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice};
+    /// assert_eq!(Lattice::Square.block_distance(Cell::new(0, 0), Cell::new(2, 3)), 3);
+    /// assert_eq!(Lattice::Hex.block_distance(Cell::new(0, 0), Cell::new(2, 3)), 4);
+    /// ```
+    pub const fn block_distance(self, a: Cell, b: Cell) -> u32 {
+        match self {
+            Self::Square => {
+                let (across, down) = (a.x.abs_diff(b.x), a.y.abs_diff(b.y));
+                if across > down { across } else { down }
+            }
+            Self::Hex => self.distance(a, b),
+        }
+    }
+
+    /// The cells of the block of this radius around a cell, row by row: 2 `radius` + 1 squares each way, or the hexagon of
+    /// all cells at most `radius` steps away.
+    ///
+    /// ```
+    /// use activecell::{Cell, Lattice};
+    /// assert_eq!(Lattice::ALL.map(|lattice| lattice.block(Cell::new(5, 5), 1).count()), [9, 7]);
+    /// ```
+    pub fn block(self, cell: Cell, radius: u32) -> impl Iterator<Item = Cell> {
+        let radius = radius.min(i32::MAX as u32 / 4) as i32;
+        (-radius..=radius).flat_map(move |dy| {
+            let y = cell.y.saturating_add(dy);
+            let (first, last) = match self {
+                Self::Square => (cell.x.saturating_sub(radius), cell.x.saturating_add(radius)),
+                Self::Hex => {
+                    // Half cells to the left of the centre, and rows that lie half a cell aside.
+                    let left = 2 * radius - dy.abs();
+                    let first =
+                        (i64::from(cell.x) * 2 + i64::from(cell.y & 1) - i64::from(left) - i64::from(y & 1))
+                            / 2;
+                    (first as i32, (first as i32).saturating_add(left))
+                }
+            };
+            (first..=last).map(move |x| Cell::new(x, y))
+        })
+    }
+
     /// The cell's centre in whole units, x right and y down from the top left corner of the lattice's bounding
     /// box. The unit is half a cell on the square lattice; on the hexagonal one half a cell across (x) and half
     /// a hexagon's corner radius down (y). Integers keep every comparison of angles and distances exact.
@@ -275,6 +319,20 @@ mod tests {
             for from in [Cell::new(0, 0), Cell::new(3, 1), Cell::new(-2, -5)] {
                 for (cell, steps) in walked(lattice, from, 9) {
                     assert_eq!(lattice.distance(from, cell), steps, "{lattice} {from} {cell}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn blocks_hold_what_is_near() {
+        for lattice in Lattice::ALL {
+            for cell in [Cell::new(0, 0), Cell::new(3, 1), Cell::new(-2, -5), Cell::new(-7, 4)] {
+                for radius in 0..5 {
+                    let block: Vec<Cell> = lattice.block(cell, radius).collect();
+                    let around = (-12..12).flat_map(|y| (-16..16).map(move |x| Cell::new(x, y)));
+                    let near = around.filter(|&other| lattice.block_distance(cell, other) <= radius);
+                    assert_eq!(block, near.collect::<Vec<_>>(), "{lattice} {cell} {radius}");
                 }
             }
         }

@@ -54,7 +54,10 @@ pub use calibrate::{
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
-pub use fleet::{Plan, PlanFault, Schedule, Team, check_moves, check_plan, check_schedule, schedule};
+pub use fleet::{
+    Bodies, Detection, KeepOut, KeepOuts, MemberRecord, Plan, PlanFault, Schedule, Team, check_keep_outs,
+    check_moves, check_plan, check_schedule, detections, schedule, strangers,
+};
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{
     BitPlane, Clearance, Elevation, Frame, Ground, MAX_CELLS, Map, PointM, Posts, Profile, Tiling,

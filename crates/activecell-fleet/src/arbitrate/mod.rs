@@ -8,12 +8,15 @@
 //! Multi-Agent Path Finding*, Artificial Intelligence 310, 2022. The hindrance among equally good cells: K. Okumura,
 //! H. Nagai, *Lightweight and Effective Preference Construction in PIBT*, `SoCS` 2025.
 
+mod bodies;
 mod choices;
 mod swap;
 
 use crate::fields::Fields;
 use crate::floor::{Floor, NONE};
+use crate::room::Room;
 use activecell::Rng;
+use bodies::Pushed;
 use choices::{Choices, Orders, STAY};
 use std::cmp::Ordering;
 
@@ -57,6 +60,10 @@ pub struct Arbiter<'a> {
     /// Whether a robot would rather not push one that is at its target, where another cell is as good. That costs less, but
     /// in a crowd it may go on for ever: the search changes it when it makes no headway.
     pub shy: bool,
+    /// Set if the robots are bodies, or cells are closed (`bodies.rs`).
+    room: Option<&'a Room>,
+    time: u32,
+    pushed: Pushed,
     cells: Vec<Standing>,
     stack: Vec<Asked>,
     orders: Orders,
@@ -90,6 +97,9 @@ impl<'a> Arbiter<'a> {
             goals,
             wishes: Vec::new(),
             shy: true,
+            room: None,
+            time: 0,
+            pushed: Pushed::default(),
             cells: vec![Standing { now: NONE, next: NONE }; floor.numbers()],
             stack: Vec::new(),
             orders: Orders::new(),
@@ -130,8 +140,12 @@ impl<'a> Arbiter<'a> {
         for (robot, &cell) in now.iter().enumerate() {
             self.cells[cell as usize].now = robot as u32;
         }
-        let settled = fixed.iter().all(|&(robot, cell)| self.fix(robot, cell, now, next))
-            && order.iter().all(|&robot| next[robot as usize] != NONE || self.settle(robot, now, next));
+        let settled = if let Some(room) = self.room {
+            self.step_bodies(room, now, next, order, fixed)
+        } else {
+            fixed.iter().all(|&(robot, cell)| self.fix(robot, cell, now, next))
+                && order.iter().all(|&robot| next[robot as usize] != NONE || self.settle(robot, now, next))
+        };
         for (&now, &next) in now.iter().zip(next.iter()) {
             self.cells[now as usize].now = NONE;
             if next != NONE {
@@ -241,8 +255,14 @@ impl<'a> Arbiter<'a> {
         let last = disturbing(level | farther);
         let classes = [parts(nearer), disturbing(nearer), parts(level), parts(farther), last];
         let choices = self.orders.choose(chance, classes.into_iter().flatten());
+        self.wished(self.floor.links(here), robot, here, choices)
+    }
+
+    /// The choices with the robot's wish first.
+    #[inline]
+    fn wished(&self, links: &[u32], robot: u32, here: u32, choices: Choices) -> Choices {
         let Some(&wish) = self.wishes.get(robot as usize) else { return choices };
-        match self.floor.links(here).iter().position(|&cell| cell == wish) {
+        match links.iter().position(|&cell| cell == wish) {
             Some(slot) => choices.after(slot as u32),
             None if wish == here => choices.after(STAY),
             None => choices,

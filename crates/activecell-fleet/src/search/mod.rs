@@ -23,6 +23,10 @@ const RESTARTS: f64 = 0.001;
 /// How many nodes the search may add before it starts over, beside those that the longest way asks for.
 const PATIENCE: usize = 500;
 
+/// After so many steps in a row that failed, the search looks at most so many steps earlier.
+const REFUSALS: u32 = 30;
+const EARLIER: u32 = 60;
+
 /// What one step of the search brought.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Advance {
@@ -71,6 +75,8 @@ pub struct Search<'a> {
     patience: usize,
     /// Nodes when the search last set out from the start.
     dive_start: usize,
+    /// Steps that failed since the last that did not.
+    refused: u32,
 }
 
 impl<'a> Search<'a> {
@@ -83,13 +89,15 @@ impl<'a> Search<'a> {
         assert_eq!(starts.len(), arbiter.goals().len(), "one start and one goal a robot");
         // Measured: below half of the cells it costs 2 to 10 % less, above it takes twice the time and costs more.
         arbiter.shy = 2 * starts.len() < arbiter.floor().map().free_cells();
-        let distance =
-            |(&start, goal): (&u32, &Goal)| arbiter.fields().steps(arbiter.floor(), goal.slot, start);
-        let distances: Vec<u32> = starts.iter().zip(arbiter.goals()).map(distance).collect();
+        let distance = |(robot, (&start, goal)): (u32, (&u32, &Goal))| {
+            arbiter.fields().steps(arbiter.floor_of(robot), goal.slot, start)
+        };
+        let distances: Vec<u32> = (0..).zip(starts.iter().zip(arbiter.goals())).map(distance).collect();
         let mut ranks: Vec<u32> = (0..starts.len() as u32).collect();
         ranks.sort_by_key(|&robot| Reverse(distances[robot as usize]));
         let root = Reached {
             hash: starts.iter().enumerate().fold(0, |hash, (robot, &cell)| hash ^ share(robot, cell)),
+            time: 0,
             spent: 0,
             ahead: distances.iter().map(|&steps| u64::from(steps)).sum(),
         };
@@ -109,6 +117,7 @@ impl<'a> Search<'a> {
             priorities: Priorities::default(),
             patience,
             dive_start: 0,
+            refused: 0,
         }
     }
 
@@ -167,7 +176,7 @@ impl<'a> Search<'a> {
             return Advance::Searching;
         }
         // The distances are 0 together, at the targets.
-        if node.ahead == 0 {
+        if node.ahead == 0 && self.arbiter.may_rest(node.time) {
             self.goal = Some(number);
             return Advance::Better;
         }
@@ -178,10 +187,31 @@ impl<'a> Search<'a> {
         }
         let fixed = self.told(number);
         let node = self.nodes.get(number);
+        self.arbiter.set_time(node.time);
         if !self.arbiter.step(&node.cells, &mut self.next, self.priorities.order(), &fixed) {
+            self.go_back(number);
             return Advance::Searching;
         }
+        self.refused = 0;
         self.reach(number)
+    }
+
+    /// Where cells close, robots may get caught together: after some vain tries at one time the search looks earlier. What
+    /// it leaves stays open. Without closed cells a step fails only if robots are told where to go.
+    fn go_back(&mut self, number: u32) {
+        self.refused += 1;
+        if self.refused < REFUSALS || self.arbiter.time_after(0) == 0 {
+            return;
+        }
+        self.refused = 0;
+        let (mut earlier, most) = (number, self.rng.below(EARLIER));
+        for _ in 0..=most {
+            earlier = match self.nodes.get(earlier).parent {
+                NONE => break,
+                parent => parent,
+            };
+        }
+        self.open.push(earlier);
     }
 
     /// The next orders of a node; those with one robot more are noted. Fills the priorities.
@@ -201,7 +231,7 @@ impl<'a> Search<'a> {
         let order = self.priorities.order();
         if let Some(&robot) = order.get(cells.len()) {
             let here = node.cells[robot as usize];
-            let mut choices: Vec<u32> = self.arbiter.floor().links(here).to_vec();
+            let mut choices: Vec<u32> = self.arbiter.floor_of(robot).links(here).to_vec();
             choices.push(here);
             for i in (1..choices.len()).rev() {
                 choices.swap(i, self.rng.below(i as u32 + 1) as usize);
@@ -232,7 +262,8 @@ impl<'a> Search<'a> {
             }
             at = node;
         }
-        if self.nodes.get(at).ahead == 0 {
+        let last = self.nodes.get(at);
+        if last.ahead == 0 && self.arbiter.may_rest(last.time) {
             self.goal = Some(at);
         }
         self.loss() != before
@@ -260,7 +291,7 @@ impl<'a> Search<'a> {
     /// The node of the configuration in `next`, which is reached from another; and whether it is new.
     fn join(&mut self, from: u32) -> (u32, bool) {
         let reached = self.weigh(from);
-        let Some(known) = self.nodes.find(&self.next, reached.hash) else {
+        let Some(known) = self.nodes.find(&self.next, &reached) else {
             let new = self.nodes.add(&self.next, self.arbiter.goals(), from, reached);
             self.nodes.link(from, new);
             return (new, true);
@@ -299,7 +330,11 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        Reached { hash, spent: node.spent + loss, ahead }
+        let time = self.arbiter.time_after(node.time);
+        if time != node.time {
+            hash ^= share(node.cells.len(), node.time) ^ share(node.cells.len(), time);
+        }
+        Reached { hash, time, spent: node.spent + loss, ahead }
     }
 
     /// A way of loss `spent` over `from` was found to a known node: passes the gain on to all ways over it.

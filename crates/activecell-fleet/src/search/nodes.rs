@@ -8,6 +8,8 @@ use std::hash::{BuildHasherDefault, Hasher};
 /// The cells of all robots at one time, how it was reached, and what has been tried from it.
 pub(super) struct Node {
     pub(super) cells: Box<[u32]>,
+    /// Which step it is, as long as that matters.
+    pub(super) time: u32,
     /// Steps since each robot was at its target: its priority.
     pub(super) waits: Box<[u16]>,
     /// The node before it on the cheapest way known, or [`NONE`].
@@ -47,6 +49,7 @@ pub(super) struct Nodes {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Reached {
     pub(super) hash: u64,
+    pub(super) time: u32,
     pub(super) spent: u64,
     pub(super) ahead: u64,
 }
@@ -56,12 +59,12 @@ impl Nodes {
         Self { all: Vec::new(), by_hash: HashMap::default(), owned: 0 }
     }
 
-    /// The node with these cells.
-    pub(super) fn find(&self, cells: &[u32], hash: u64) -> Option<u32> {
-        let mut number = *self.by_hash.get(&hash)?;
+    /// The node with these cells at this time.
+    pub(super) fn find(&self, cells: &[u32], reached: &Reached) -> Option<u32> {
+        let mut number = *self.by_hash.get(&reached.hash)?;
         while number != NONE {
             let node = &self.all[number as usize];
-            if *node.cells == *cells {
+            if *node.cells == *cells && node.time == reached.time {
                 return Some(number);
             }
             number = node.twin;
@@ -71,7 +74,7 @@ impl Nodes {
 
     /// Adds a node whose cells are not there yet.
     pub(super) fn add(&mut self, cells: &[u32], goals: &[Goal], parent: u32, reached: Reached) -> u32 {
-        let Reached { hash, spent, ahead } = reached;
+        let Reached { hash, time, spent, ahead } = reached;
         let before = self.all.get(parent as usize);
         let wait = |(robot, (&cell, goal)): (usize, (&u32, &Goal))| match before {
             Some(before) if cell != goal.target => before.waits[robot].saturating_add(1),
@@ -83,6 +86,7 @@ impl Nodes {
         self.owned += size_of_val(cells) + size_of_val(&*waits);
         self.all.push(Node {
             cells: cells.into(),
+            time,
             waits,
             parent,
             spent,

@@ -1,6 +1,7 @@
 //! The checker: knows the map, the team and the rules of moving, and nothing of how plans are made.
 
-use super::{Plan, Team};
+use super::bodies::Standing;
+use super::{KeepOuts, Plan, Team};
 use crate::lattice::Cell;
 use crate::map::Map;
 use std::fmt;
@@ -72,6 +73,39 @@ pub enum PlanFault {
         /// Where the robots are after the swap.
         cells: [Cell; 2],
     },
+    /// A robot that covers several cells covers one that is an obstacle or outside the map.
+    NoRoom {
+        /// The step.
+        step: usize,
+        /// The robot.
+        robot: usize,
+        /// Where its centre is.
+        at: Cell,
+        /// The cell that it covers.
+        covers: Cell,
+    },
+    /// Two robots are closer than their sizes and the team's least distance allow.
+    TooClose {
+        /// The step.
+        step: usize,
+        /// The robots, the lower number first.
+        robots: [usize; 2],
+        /// Where their centres are.
+        cells: [Cell; 2],
+        /// How far apart the centres must be at least, in cells.
+        least: u32,
+    },
+    /// A robot is in a cell that is closed at that time.
+    Closed {
+        /// The step.
+        step: usize,
+        /// The robot.
+        robot: usize,
+        /// Where its centre is.
+        at: Cell,
+        /// The closed cell.
+        closed: Cell,
+    },
     /// A robot does not end at its target.
     NotArrived {
         /// The robot.
@@ -105,6 +139,19 @@ impl fmt::Display for PlanFault {
             Self::Swap { step, robots: [a, b], cells: [at_a, at_b] } => {
                 write!(f, "step {step}: robots {a} and {b} swap cells, {a} to {at_a} and {b} to {at_b}")
             }
+            Self::NoRoom { step, robot, at, covers } => {
+                write!(
+                    f,
+                    "step {step}: robot {robot} at {at} covers {covers}, an obstacle or outside the map"
+                )
+            }
+            Self::TooClose { step, robots: [a, b], cells: [at_a, at_b], least } => write!(
+                f,
+                "step {step}: robots {a} and {b} at {at_a} and {at_b} are too close; their centres must be at least {least} cells apart"
+            ),
+            Self::Closed { step, robot, at, closed } => {
+                write!(f, "step {step}: robot {robot} at {at} is in {closed}, which is closed then")
+            }
             Self::NotArrived { robot, cell, target } => {
                 write!(f, "robot {robot} ends at {cell}, not at its target {target}")
             }
@@ -116,7 +163,8 @@ impl std::error::Error for PlanFault {}
 
 /// Checks that a plan takes every robot of the team from its start to its target by the rules: a step leads to a
 /// neighbour or nowhere, never into an obstacle or off the map; never two robots in a cell, never two swapping.
-/// Following into a cell that is being left is allowed.
+/// Following into a cell that is being left is allowed. A team with [`Bodies`](super::Bodies) must have room and keep its
+/// distances at every step; robots that do cannot pass through each other during one, as the chapter on bodies shows.
 ///
 /// Takes time for robots × steps and, while it runs, 8 bytes for each cell of the map.
 ///
@@ -144,7 +192,11 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
             return Err(PlanFault::WrongStart { robot, cell, start });
         }
     }
-    check_moves(map, plan)?;
+    if team.bodies().are_cells() {
+        check_moves(map, plan)?;
+    } else {
+        check_bodies(map, team, plan)?;
+    }
     let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
     for (robot, (&cell, &target)) in ends {
         if cell != target {
@@ -174,19 +226,105 @@ pub fn check_moves(map: &Map, plan: &Plan) -> Result<(), PlanFault> {
         let from = if step == 0 { row } else { plan.row(step - 1) };
         for (robot, &cell) in row.iter().enumerate() {
             check_move(map, step, robot, from[robot], cell)?;
-            if let Some(other) = now.enter(map, cell, robot) {
+            if let Some(other) = now.enter(cell, robot) {
                 return Err(PlanFault::Collision { step, robots: [other, robot], cell });
             }
             // The one who was there before: if it is now where this robot was, they swapped.
-            let other = before.who(map, cell).filter(|&other| other < robot && cell != from[robot]);
+            let other = before.who(cell).filter(|&other| other < robot && cell != from[robot]);
             if let Some(other) = other.filter(|&other| row[other] == from[robot]) {
                 return Err(PlanFault::Swap { step, robots: [other, robot], cells: [row[other], cell] });
             }
         }
         if step > 0 {
-            before.leave(map, from);
+            before.leave(from);
         }
         std::mem::swap(&mut before, &mut now);
+    }
+    Ok(())
+}
+
+/// Checks that bodies have room, move by the rules and keep their distances.
+///
+/// Swaps need no look where centres must be two cells apart or more: robots that were on either side of each other
+/// would be too close after the step. Only one-cell robots without a distance can swap, and teams of bodies may have
+/// some.
+fn check_bodies(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> {
+    let bodies = team.bodies();
+    let (mut now, mut before) = (Standing::new(map), Standing::new(map));
+    for (step, row) in plan.rows().enumerate() {
+        let from = if step == 0 { row } else { plan.row(step - 1) };
+        let moves = row.iter().enumerate().map(|(robot, &cell)| {
+            check_move(map, step, robot, from[robot], cell)?;
+            let mut block = map.lattice().block(cell, bodies.radius(robot));
+            let covers = block.find(|&covered| !map.is_free(covered));
+            covers.map_or(Ok(()), |covers| Err(PlanFault::NoRoom { step, robot, at: cell, covers }))
+        });
+        let mut moves = moves.enumerate();
+        // Of several faults that of the robot with the lowest number counts.
+        let bad = moves.find_map(|(robot, fault)| fault.err().map(|fault| (robot, fault)));
+        let good = &row[..bad.map_or(row.len(), |(robot, _)| robot)];
+        let close = bodies.first_too_close(&mut now, good);
+        let swap = first_swap(&mut before, &from[..good.len()], good);
+        if let Some(robots) = close.filter(|close| swap.is_none_or(|swap| close[1] <= swap[1])) {
+            let [a, b] = robots;
+            let least = bodies.apart(a, b);
+            return Err(PlanFault::TooClose { step, robots, cells: [row[a], row[b]], least });
+        }
+        if let Some([a, b]) = swap {
+            return Err(PlanFault::Swap { step, robots: [a, b], cells: [row[a], row[b]] });
+        }
+        if let Some((_, fault)) = bad {
+            return Err(fault);
+        }
+    }
+    Ok(())
+}
+
+/// The first two robots that swap cells in a step, in the order of the higher number.
+fn first_swap(before: &mut Standing, from: &[Cell], to: &[Cell]) -> Option<[usize; 2]> {
+    for (robot, &cell) in from.iter().enumerate() {
+        before.enter(cell, robot);
+    }
+    let pair = to.iter().enumerate().find_map(|(robot, &cell)| {
+        let other = before.who(cell).filter(|&other| other < robot)?;
+        (to[other] == from[robot]).then_some([other, robot])
+    });
+    before.leave(from);
+    pair
+}
+
+/// Checks that no robot of a plan covers a cell while it is closed. What is closed at the start was so before the plan
+/// could do anything about it, and does not count; what is closed after the plan's last step does.
+///
+/// It comes on top of [`check_plan`], which knows nothing of closed cells.
+///
+/// # Errors
+/// [`PlanFault::Robots`]; [`PlanFault::Closed`], of the earliest step, there of the robot with the lowest number.
+///
+/// ```
+/// use activecell::{Cell, KeepOut, KeepOuts, Lattice, Map, Plan, Team, check_keep_outs};
+/// let map = Map::parse(Lattice::Square, "...")?;
+/// let cell = |x: i32| Cell::new(x, 0);
+/// let keep_outs = KeepOuts::new(&map, vec![KeepOut { cell: cell(2), from_step: 1, to_step: 2 }])?;
+/// let team = Team::new(&map, vec![cell(0)], vec![cell(2)])?;
+/// let early = Plan::new(1, vec![cell(0), cell(1), cell(2)])?;
+/// let fault = check_keep_outs(&map, &team, &keep_outs, &early).unwrap_err();
+/// assert_eq!(fault.to_string(), "step 2: robot 0 at (2,0) is in (2,0), which is closed then");
+/// let late = Plan::new(1, vec![cell(0), cell(1), cell(1), cell(2)])?;
+/// assert!(check_keep_outs(&map, &team, &keep_outs, &late).is_ok());
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn check_keep_outs(map: &Map, team: &Team, keep_outs: &KeepOuts, plan: &Plan) -> Result<(), PlanFault> {
+    if plan.robots() != team.robots() {
+        return Err(PlanFault::Robots { plan: plan.robots(), team: team.robots() });
+    }
+    for step in 1..=keep_outs.last_step() {
+        for (robot, &at) in plan.row(step as usize).iter().enumerate() {
+            let mut block = map.lattice().block(at, team.bodies().radius(robot));
+            if let Some(closed) = block.find(|&cell| keep_outs.is_closed(cell, step)) {
+                return Err(PlanFault::Closed { step: step as usize, robot, at, closed });
+            }
+        }
     }
     Ok(())
 }
@@ -202,35 +340,4 @@ fn check_move(map: &Map, step: usize, robot: usize, from: Cell, to: Cell) -> Res
         return Err(PlanFault::Jump { step, robot, from, to });
     }
     Ok(())
-}
-
-/// Who stands where.
-struct Standing(Vec<u32>);
-
-impl Standing {
-    const NOBODY: u32 = u32::MAX;
-
-    fn new(map: &Map) -> Self {
-        Self(vec![Self::NOBODY; map.cells()])
-    }
-
-    fn who(&self, map: &Map, cell: Cell) -> Option<usize> {
-        let robot = self.0[map.index(cell)?];
-        (robot != Self::NOBODY).then_some(robot as usize)
-    }
-
-    /// Puts a robot into a cell; says who was there.
-    fn enter(&mut self, map: &Map, cell: Cell, robot: usize) -> Option<usize> {
-        let there = self.who(map, cell);
-        if let Some(index) = map.index(cell) {
-            self.0[index] = robot as u32;
-        }
-        there
-    }
-
-    fn leave(&mut self, map: &Map, cells: &[Cell]) {
-        for index in cells.iter().filter_map(|&cell| map.index(cell)) {
-            self.0[index] = Self::NOBODY;
-        }
-    }
 }

@@ -8,12 +8,18 @@
 //! Source of the model: R. Stern et al., *Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks*, `SoCS` 2019.
 
 mod assign;
+mod bodies;
 mod check;
+mod keep_out;
 mod plan;
 pub mod schedule;
+mod strangers;
 mod team;
 
-pub use check::{PlanFault, check_moves, check_plan};
+pub use bodies::Bodies;
+pub use check::{PlanFault, check_keep_outs, check_moves, check_plan};
+pub use keep_out::{KeepOut, KeepOuts};
 pub use plan::Plan;
 pub use schedule::{Schedule, check_schedule};
+pub use strangers::{Detection, MemberRecord, detections, strangers};
 pub use team::Team;

@@ -1,11 +1,12 @@
 //! Who starts where, and wants to go where.
 
+use super::bodies::{Bodies, Standing};
 use crate::error::Error;
 use crate::lattice::Cell;
 use crate::map::Map;
 use crate::rng::Rng;
 use crate::search::Search;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The robots of a group: each has a start and a target. No two share a start, no two share a target.
 ///
@@ -23,6 +24,7 @@ use std::collections::BTreeMap;
 pub struct Team {
     starts: Vec<Cell>,
     targets: Vec<Cell>,
+    bodies: Bodies,
 }
 
 impl Team {
@@ -49,7 +51,71 @@ impl Team {
         if let Some((robots, cell)) = shared(&targets) {
             return Err(Error::SharedTarget { robots, cell });
         }
-        Ok(Self { starts, targets })
+        Ok(Self { starts, targets, bodies: Bodies::default() })
+    }
+
+    /// The same robots with bodies of other sizes, or a distance that they keep.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`] if there is another number of radii than of robots; [`Error::OfRobot`] with
+    /// [`Error::NoRoom`] for the first robot whose body does not fit at its start or target; [`Error::TooClose`] for
+    /// two at their starts or at their targets.
+    ///
+    /// ```
+    /// use activecell::{Bodies, Cell, Lattice, Map, Team};
+    /// let map = Map::parse(Lattice::Square, "......\n......\n......")?;
+    /// let row = |x: i32| Cell::new(x, 1);
+    /// let team = Team::new(&map, vec![row(1), row(3)], vec![row(4), row(2)])?;
+    /// let wide = team.clone().with_bodies(&map, Bodies::new(vec![1, 0], 1)?)?;
+    /// assert_eq!(wide.bodies().radius(0), 1);
+    /// let error = team.with_bodies(&map, Bodies::new(vec![1, 0], 2)?).unwrap_err();
+    /// assert_eq!(
+    ///     error.to_string(),
+    ///     "robots 0 and 1 at (1,1) and (3,1) are too close; their centres must be at least 3 cells apart"
+    /// );
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn with_bodies(self, map: &Map, bodies: Bodies) -> Result<Self, Error> {
+        if ![0, self.robots()].contains(&bodies.radii()) {
+            let (name, value) = ("the number of radii", bodies.radii() as f64);
+            return Err(Error::BadValue { name, value, allowed: "one a robot" });
+        }
+        let team = Self { bodies, ..self };
+        team.check_bodies(map)?;
+        Ok(team)
+    }
+
+    /// Checks that the team can also stand on this map.
+    ///
+    /// # Errors
+    /// As [`Team::new`] and [`Team::with_bodies`].
+    pub fn check(&self, map: &Map) -> Result<(), Error> {
+        Self::new(map, self.starts.clone(), self.targets.clone())?;
+        self.check_bodies(map)
+    }
+
+    fn check_bodies(&self, map: &Map) -> Result<(), Error> {
+        if self.bodies.are_cells() {
+            return Ok(());
+        }
+        // Distances first: bodies that do not overlap are no more cells than the map has.
+        let mut standing = Standing::new(map);
+        for cells in [&self.starts, &self.targets] {
+            if let Some(robots) = self.bodies.first_too_close(&mut standing, cells) {
+                let least = self.bodies.apart(robots[0], robots[1]);
+                return Err(Error::TooClose { robots, cells: robots.map(|robot| cells[robot]), least });
+            }
+        }
+        for (robot, (&from, &to)) in self.starts.iter().zip(&self.targets).enumerate() {
+            let radius = self.bodies.radius(robot);
+            for at in [from, to] {
+                if let Some(covers) = map.lattice().block(at, radius).find(|&cell| !map.is_free(cell)) {
+                    let error = Box::new(Error::NoRoom { at, radius, covers });
+                    return Err(Error::OfRobot { robot, error });
+                }
+            }
+        }
+        Ok(())
     }
 
     /// A group with starts and targets by chance, all on the map's [largest region](Map::largest_region), so that no
@@ -96,17 +162,27 @@ impl Team {
         &self.targets
     }
 
+    /// The robots' bodies, and the distance that they keep.
+    pub const fn bodies(&self) -> &Bodies {
+        &self.bodies
+    }
+
     /// The sum of the robots' distances to their targets: no plan has a lower sum of costs. `None` if some robot has no
     /// way to its target.
     ///
     /// # Errors
     /// As [`Search::steps`], if this is not the map that the team was made for.
     pub fn lower_bound(&self, map: &Map) -> Result<Option<u64>, Error> {
-        let mut search = Search::new(map);
+        let radii = (0..self.robots()).map(|robot| self.bodies.radius(robot));
         let mut sum = 0;
-        for (&from, &to) in self.starts.iter().zip(&self.targets) {
-            let Some(steps) = search.steps(from, to)? else { return Ok(None) };
-            sum += u64::from(steps);
+        for radius in radii.clone().collect::<BTreeSet<u32>>() {
+            let map = map.for_body(radius);
+            let mut search = Search::new(&map);
+            let ends = self.starts.iter().zip(&self.targets).zip(radii.clone());
+            for ((&from, &to), _) in ends.filter(|&(_, own)| own == radius) {
+                let Some(steps) = search.steps(from, to)? else { return Ok(None) };
+                sum += u64::from(steps);
+            }
         }
         Ok(Some(sum))
     }

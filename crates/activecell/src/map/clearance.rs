@@ -132,7 +132,7 @@ impl Map {
     }
 
     /// The map with changed obstacles.
-    fn overlaid(&self, change: impl FnOnce(&mut BitPlane)) -> Self {
+    pub(super) fn overlaid(&self, change: impl FnOnce(&mut BitPlane)) -> Self {
         let mut plane = (*self.obstacles).clone();
         change(&mut plane);
         plane.trim();

@@ -2,6 +2,7 @@
 
 mod area;
 mod bits;
+mod body;
 mod clearance;
 mod elevation;
 mod frame;

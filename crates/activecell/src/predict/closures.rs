@@ -176,7 +176,7 @@ impl Closures {
 
 /// Where the object's disc is likely to be in a slot; `None` if it was never seen. After the certain slots no wider than
 /// a guess: it would close half the floor.
-fn likely(track: &Track, from_s: f64, to_s: f64, certain: bool) -> Option<Capsule> {
+pub(crate) fn likely(track: &Track, from_s: f64, to_s: f64, certain: bool) -> Option<Capsule> {
     let (begin, end) = (track.forecast(from_s)?, track.forecast(to_s)?);
     let likely_m = begin.radius_m(LIKELY).max(end.radius_m(LIKELY));
     let vague_m = 2.0 * track.bounds().radius_m + 0.5 * track.bounds().max_speed_mps * (to_s - from_s);

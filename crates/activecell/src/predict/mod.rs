@@ -19,6 +19,7 @@ mod window;
 pub use avoid::{Avoider, Slots};
 pub use capsule::Capsule;
 pub use closures::Closures;
+pub(crate) use closures::likely;
 pub use contact::{Contact, first_contact};
 pub use plan::{Facing, Plan, Step};
 pub use track::{Bounds, Track};
