@@ -1,6 +1,6 @@
 //! The rehearsal: a schedule run by robots that are delayed, slow, or stand still for a while.
 
-use super::{Bodies, Runner, Schedule};
+use super::{Discs, Runner, Schedule};
 use crate::error::Error;
 use crate::lattice::Dir;
 use crate::map::{Map, PointM};
@@ -100,7 +100,7 @@ const TICKS: f64 = 8.0;
 const MOST_STOP: f64 = 1e6;
 
 /// A rehearsal of a schedule: in every tick each robot drives as far as its speed and its permit let it, and reports; the
-/// bodies are watched by [`Bodies`], which knows of no schedule.
+/// bodies are watched by [`Discs`], which knows of no schedule.
 ///
 /// ```
 /// use activecell::schedule::{Delays, Execution};
@@ -150,7 +150,7 @@ impl<'a> Execution<'a> {
     }
 
     /// As [`trial`](Self::trial); `watch` is told the time in steps and where the robots are, at the start and after every
-    /// tick, in the cells of [`Bodies`].
+    /// tick, in the cells of [`Discs`].
     ///
     /// # Errors
     /// As [`trial`](Self::trial).
@@ -163,7 +163,7 @@ impl<'a> Execution<'a> {
         let seed = rng.next_u64();
         let robots = runner.schedule().robots();
         let mut drivers: Vec<_> = (0..robots).map(|robot| Driver::new(self, robot, seed)).collect();
-        let mut bodies = Bodies::new(self.map, runner.spacing().radius());
+        let mut bodies = Discs::new(self.map, runner.spacing().radius());
         let mut points: Vec<PointM> = drivers.iter().map(|driver| driver.point(self)).collect();
         let mut silent = false;
         for tick in 0u64.. {
@@ -260,7 +260,7 @@ impl Driver {
 
     fn point(&self, execution: &Execution<'_>) -> PointM {
         let schedule = execution.runner.schedule();
-        let centre = |visit| Bodies::centre(execution.map, schedule.cell(visit));
+        let centre = |visit| Discs::centre(execution.map, schedule.cell(visit));
         let from = centre(self.visit);
         let to = if self.is_done() { from } else { centre(self.visit + 1) };
         [0, 1].map(|axis| from[axis] + self.share * (to[axis] - from[axis]))

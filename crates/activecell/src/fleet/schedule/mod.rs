@@ -21,15 +21,15 @@
 //! before them are done, so each follows a robot that has left, or one that moves in the same step; where such a chain
 //! ends, the way is free, and in a ring the one who is furthest behind may always drive on.
 
-mod bodies;
 mod build;
 mod check;
+mod discs;
 mod execute;
 mod run;
 mod spacing;
 
-pub use bodies::Bodies;
 pub use check::{ScheduleFault, check_schedule};
+pub use discs::Discs;
 pub use execute::{Delays, Executed, Execution, ExecutionFault, Stop};
 pub use run::Runner;
 pub use spacing::Spacing;

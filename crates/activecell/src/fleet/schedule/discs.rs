@@ -4,18 +4,18 @@ use super::NONE;
 use crate::map::{Map, PointM};
 
 /// Watches discs of one radius for overlaps. Points are in cells: x right and y down from the top left corner of the
-/// mosaic's bounding box, 1 from a cell's centre to the next ([`Bodies::centre`]).
+/// mosaic's bounding box, 1 from a cell's centre to the next ([`Discs::centre`]).
 ///
 /// ```
-/// use activecell::{Lattice, Map, schedule::Bodies};
+/// use activecell::{Lattice, Map, schedule::Discs};
 /// let map = Map::parse(Lattice::Square, "...\n...")?;
-/// let mut bodies = Bodies::new(&map, 0.3);
+/// let mut bodies = Discs::new(&map, 0.3);
 /// assert_eq!(bodies.overlap(&[[0.5, 0.5], [2.5, 0.5], [1.1, 0.5]]), None); // they touch
 /// assert_eq!(bodies.overlap(&[[0.5, 0.5], [2.5, 0.5], [0.9, 0.9]]), Some([0, 2]));
 /// # Ok::<(), activecell::Error>(())
 /// ```
 #[derive(Debug, Clone)]
-pub struct Bodies {
+pub struct Discs {
     radius: f64,
     columns: usize,
     /// The first body in each square of side 1, and of each body the next.
@@ -23,7 +23,7 @@ pub struct Bodies {
     next: Vec<u32>,
 }
 
-impl Bodies {
+impl Discs {
     /// For discs of this radius in cells, at most a half, on this map.
     ///
     /// Takes 4 bytes for each cell of the map.
