@@ -24,7 +24,7 @@ fn main() -> Result<(), Failure> {
     let [starts, targets] = [0, 1].map(|_| ends(&map, &bodies, robots, &mut rng));
     let team = Team::new(&map, starts?, targets?)?.with_bodies(&map, bodies)?;
     let keep_outs = crossing(&map, strangers, &mut rng)?;
-    let limits = Limits { time: Some(Duration::from_mins(1)), first: true, ..Limits::default() };
+    let limits = Limits { time: Some(Duration::from_secs(60)), first: true, ..Limits::default() };
     let options = Options { seed, threads: 2, limits };
     let outcome = solve_past(&map, &team, &keep_outs, &options, |_| {})?;
     let (Some(plan), Some(first)) = (&outcome.plan, outcome.history.first()) else {

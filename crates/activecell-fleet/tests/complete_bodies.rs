@@ -62,7 +62,7 @@ impl<'a> Rules<'a> {
     }
 
     fn number(&self, cell: Cell) -> usize {
-        self.map.index(cell).unwrap()
+        self.map.index(cell).expect("robots are on the map")
     }
 
     /// Whether the robots are too close in these cells; `a` has the higher number.
@@ -98,7 +98,7 @@ impl<'a> Rules<'a> {
         let after = self.clash(a, next[a], b, next[b]);
         let first_a = self.clash(a, next[a], b, now[b]);
         let first_b = self.clash(a, now[a], b, next[b]);
-        !after && !(first_a && first_b)
+        !(after || first_a && first_b)
     }
 
     /// The least loss of a plan; `None` if there is none.
@@ -164,11 +164,11 @@ fn small_task(seed: u64) -> Option<(Map, Team)> {
 
 fn some_keep_outs(map: &Map, rng: &mut Rng) -> KeepOuts {
     let free: Vec<Cell> = map.free().collect();
-    let all = (0..1 + rng.below(6)).map(|_| {
+    let all = (0..=rng.below(6)).map(|_| {
         let (cell, from_step) = (free[rng.below(free.len() as u32) as usize], rng.below(4));
         KeepOut { cell, from_step, to_step: from_step + rng.below(3) }
     });
-    KeepOuts::new(map, all.collect()).unwrap()
+    KeepOuts::new(map, all.collect()).expect("they are on the map")
 }
 
 fn first(seed: u64) -> Options {
@@ -186,7 +186,7 @@ fn judge(map: &Map, team: &Team, keep_outs: &KeepOuts, outcome: &Outcome, seed: 
     };
     assert_eq!(check_plan(map, team, plan), Ok(()), "{seed}");
     assert_eq!(check_keep_outs(map, team, keep_outs, plan), Ok(()), "{seed}");
-    assert_eq!(Some(outcome.lower_bound), team.lower_bound(map).unwrap());
+    assert_eq!(Ok(Some(outcome.lower_bound)), team.lower_bound(map));
     assert!(least.is_some_and(|least| least <= loss(team, plan)), "{seed}: {least:?}");
     if outcome.ending == activecell_fleet::Ending::Exhausted {
         assert_eq!(least, Some(loss(team, plan)), "{seed}\n{}", map.to_text());

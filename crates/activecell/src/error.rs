@@ -218,14 +218,7 @@ impl fmt::Display for Error {
             Self::SharedTarget { robots: [a, b], cell } => {
                 write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
             }
-            Self::NoRoom { at, radius, covers } => write!(
-                f,
-                "a body of radius {radius} at {at} covers {covers}, an obstacle or outside the map; choose a cell with more room"
-            ),
-            Self::TooClose { robots: [a, b], cells: [at_a, at_b], least } => write!(
-                f,
-                "robots {a} and {b} at {at_a} and {at_b} are too close; their centres must be at least {least} cells apart"
-            ),
+            Self::NoRoom { .. } | Self::TooClose { .. } => bodies(f, self),
             Self::TooFewRobots { cell, robots, targets } => {
                 let s = if *robots == 1 { "" } else { "s" };
                 let of = if *targets == 1 { "1 target" } else { &format!("{targets} targets") };
@@ -247,6 +240,21 @@ impl fmt::Display for Error {
             }
             Self::BadValue { name, value, allowed } => write!(f, "{name} is {value:e}; it must be {allowed}"),
         }
+    }
+}
+
+/// What is wrong with the bodies of a team.
+fn bodies(f: &mut fmt::Formatter<'_>, error: &Error) -> fmt::Result {
+    match error {
+        Error::NoRoom { at, radius, covers } => write!(
+            f,
+            "a body of radius {radius} at {at} covers {covers}, an obstacle or outside the map; choose a cell with more room"
+        ),
+        Error::TooClose { robots: [a, b], cells: [at_a, at_b], least } => write!(
+            f,
+            "robots {a} and {b} at {at_a} and {at_b} are too close; their centres must be at least {least} cells apart"
+        ),
+        _ => Ok(()),
     }
 }
 

@@ -60,7 +60,7 @@ fn first_bad_step(map: &Map, team: &Team, keep_outs: &KeepOuts, plan: &Plan) -> 
     let clash = |a: usize, at_a: Cell, b: usize, at_b: Cell| {
         let (a, b) = (covers(a, at_a), covers(b, at_b));
         let pairs = a.iter().flat_map(|&a| b.iter().map(move |&b| lattice.block_distance(a, b)));
-        pairs.min().unwrap() < team.bodies().distance()
+        pairs.min().is_some_and(|gap| gap < team.bodies().distance())
     };
     (0..=plan.steps().max(keep_outs.last_step() as usize)).find(|&step| {
         let (from, to) = (plan.row(step.saturating_sub(1)), plan.row(step));

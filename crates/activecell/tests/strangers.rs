@@ -60,7 +60,7 @@ fn a_stranger_among_members_and_walls_is_found() {
             let member = to_disc(truth.at_m, bearing_rad, true_member, 0.3);
             let stranger = to_disc(truth.at_m, bearing_rad, stranger, 0.3);
             let least = wall.min(member).min(stranger);
-            (least, if least == wall { 0 } else { 1 + usize::from(least == stranger) })
+            (least, if wall <= least { 0 } else { 1 + usize::from(stranger <= least) })
         };
         let readings = look(&sensors, truth, &|bearing_rad| nearest(bearing_rad).0, &mut rng);
         let estimate = Estimate::new(believed, &errors);
