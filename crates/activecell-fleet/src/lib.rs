@@ -22,11 +22,14 @@
 mod arbitrate;
 mod fields;
 mod floor;
+mod guide;
+mod priorities;
 mod search;
 mod solve;
 
 pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
+pub use guide::{Dive, Guide, Problem, dive};
 pub use search::{Advance, Search};
 pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};
