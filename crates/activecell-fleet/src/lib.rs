@@ -23,7 +23,9 @@ mod arbitrate;
 mod fields;
 mod floor;
 mod guide;
+mod passage;
 mod priorities;
+mod refine;
 mod search;
 mod solve;
 
@@ -31,5 +33,7 @@ pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
 pub use guide::{Dive, Guide, Problem, dive};
+pub use passage::{Layout, Passage, Reservations};
+pub use refine::Refiner;
 pub use search::{Advance, Search};
 pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};

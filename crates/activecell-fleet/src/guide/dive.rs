@@ -63,9 +63,7 @@ pub fn dive(problem: Problem<'_>, guide: Guide, seed: u64, stop: &impl Fn(u64) -
     let (window, mut ways) = match guide {
         Guide::Plain => (None, None),
         Guide::Local(window) => (Some(window), None),
-        Guide::Spread(window) => {
-            (Some(window), Some(Ways::new(problem, &team.ahead, seed, &|| stop(bound))))
-        }
+        Guide::Spread(window) => (Some(window), Some(Ways::new(problem, &team.ahead, seed, &|| stop(bound)))),
     };
     let mut local = window.map(|window| Local::new(problem, window, seed));
     let longest = team.ahead.iter().copied().max().unwrap_or(0);

@@ -23,10 +23,11 @@ const HUGE: u64 = 2_000_000;
 /// The kinds to try, the most promising first. Measured, see `docs/fleet.md`.
 fn kinds(problem: Problem<'_>) -> Vec<Guide> {
     let Problem { floor, fields, goals, starts } = problem;
-    let steps = starts.iter().zip(goals).map(|(&start, goal)| u64::from(fields.steps(floor, goal.slot, start)));
+    let steps =
+        starts.iter().zip(goals).map(|(&start, goal)| u64::from(fields.steps(floor, goal.slot, start)));
     let longest = steps.max().unwrap_or(0);
     if longest * starts.len() as u64 > HUGE {
-        return vec![Guide::Local(7), Guide::Local(10)];
+        return vec![Guide::Local(7), Guide::Local(5)];
     }
     vec![Guide::Spread(10), Guide::Local(10), Guide::Spread(20), Guide::Local(20)]
 }
@@ -114,7 +115,9 @@ mod tests {
     #[test]
     fn what_comes_in_any_order_is_passed_on_in_order() {
         let mut passed = Vec::new();
-        in_order([(2, Some('c')), (0, Some('a')), (3, None), (1, None), (4, Some('e'))], |item| passed.push(item));
+        in_order([(2, Some('c')), (0, Some('a')), (3, None), (1, None), (4, Some('e'))], |item| {
+            passed.push(item)
+        });
         assert_eq!(passed, ['a', 'c', 'e']);
     }
 }

@@ -269,7 +269,7 @@ impl<'a> Local<'a> {
 /// The numbers below `count`, beginning anywhere, upwards or downwards.
 #[inline]
 pub(super) fn turned(count: usize, chance: u64) -> impl Iterator<Item = usize> {
-    let first = ((chance >> 32) * count as u64 >> 32) as usize;
+    let first = (((chance >> 32) * count as u64) >> 32) as usize;
     let turn = move |i: usize| if i + first < count { i + first } else { i + first - count };
     (0..count).map(move |i| if chance & 1 == 0 { turn(i) } else { count - 1 - turn(i) })
 }

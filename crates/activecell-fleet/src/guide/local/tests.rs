@@ -19,7 +19,13 @@ fn naive(local: &Local<'_>, robot: u32, start: u32, hurried: bool, lead: &[u32])
         for (&here, &cost) in &layer {
             for &there in floor.links(here).iter().chain([&here]) {
                 let rise = match fields.field(goal.slot).compare(here, there) {
-                    _ if here == there => if here == goal.target { 0 } else { stay },
+                    _ if here == there => {
+                        if here == goal.target {
+                            0
+                        } else {
+                            stay
+                        }
+                    }
                     Ordering::Less => 0,
                     Ordering::Equal => 1,
                     Ordering::Greater => 2,
@@ -63,13 +69,15 @@ fn no_way_through_the_window_costs_less() {
         let map = Map::random(Lattice::ALL[seed as usize % 2], 12, 9, 0.2, seed).unwrap();
         let floor = Floor::new(&map);
         let free: Vec<u32> = map.free().map(|cell| floor.number(cell)).collect();
-        let part: Vec<u32> = free.iter().copied().filter(|&cell| floor.connected(cell, free[free.len() / 2])).collect();
+        let part: Vec<u32> =
+            free.iter().copied().filter(|&cell| floor.connected(cell, free[free.len() / 2])).collect();
         let robots = 1 + rng.below(part.len() as u32 / 2 + 1) as usize;
         let (starts, targets) = (draw(&part, robots, &mut rng), draw(&part, robots, &mut rng));
         let robots = starts.len();
         let mut fields = Fields::new(&floor);
         let slots = fields.request(&floor, &targets, 1).unwrap();
-        let goals: Vec<Goal> = targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+        let goals: Vec<Goal> =
+            targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
         let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
         let mut local = Local::new(problem, 1 + rng.below(8), seed);
         let ahead: Vec<u32> =
@@ -103,7 +111,11 @@ fn no_way_through_the_window_costs_less() {
             // Some go along their ways, as far as nobody stands there, others stay.
             for robot in 0..robots {
                 let wish = wishes[robot];
-                if wish != NONE && floor.links(now[robot]).contains(&wish) && !now.contains(&wish) && rng.chance(0.8) {
+                if wish != NONE
+                    && floor.links(now[robot]).contains(&wish)
+                    && !now.contains(&wish)
+                    && rng.chance(0.8)
+                {
                     now[robot] = wish;
                 }
             }

@@ -1,0 +1,183 @@
+//! The best plan so far: the path of each robot, and who is where at each step.
+
+use super::ground::Ground;
+use crate::arbitrate::Goal;
+use crate::floor::{Floor, NONE};
+use activecell::Plan;
+use std::mem;
+
+/// Paths of some robots that take the place of their paths in the plan.
+#[derive(Debug, Clone)]
+pub(super) struct Change {
+    /// The robots with their paths; on the way out the new ones, once made the old ones.
+    pub(super) paths: Vec<(u32, Vec<u32>)>,
+}
+
+/// A plan as paths of places. A path has a place a step, from the start to the first step of the last rest.
+#[derive(Debug)]
+pub(super) struct Incumbent {
+    pub(super) paths: Vec<Vec<u32>>,
+    /// The shortest distance of each robot.
+    pub(super) least: Vec<u32>,
+    /// The sum of costs.
+    pub(super) sum: u64,
+    /// The last step of the table; after it all rest.
+    pub(super) steps: usize,
+    places: usize,
+    /// The robot, plus one, in each place at each step.
+    table: Vec<u32>,
+    /// The delays of robots up to each, added up.
+    delays: Vec<u64>,
+}
+
+impl Incumbent {
+    /// Takes a plan over.
+    pub(super) fn new(floor: &Floor, ground: &Ground, least: Vec<u32>, plan: &Plan) -> Self {
+        let costs = plan.costs();
+        let path = |(robot, &cost): (usize, &usize)| {
+            (0..=cost).map(|step| ground.place(floor.number(plan.at(step, robot)))).collect()
+        };
+        let paths: Vec<Vec<u32>> = costs.iter().enumerate().map(path).collect();
+        let steps = costs.iter().copied().max().unwrap_or(0);
+        let sum = costs.iter().map(|&cost| cost as u64).sum();
+        let table = vec![0; (steps + 1) * ground.len()];
+        let mut new = Self { paths, least, sum, steps, places: ground.len(), table, delays: Vec::new() };
+        for robot in 0..new.paths.len() as u32 {
+            let path = mem::take(&mut new.paths[robot as usize]);
+            new.mark(&path, robot + 1);
+            new.paths[robot as usize] = path;
+        }
+        new.add_delays();
+        new
+    }
+
+    /// The bytes of the table.
+    pub(super) fn bytes(&self) -> usize {
+        let paths: usize = self.paths.iter().map(Vec::capacity).sum();
+        (paths + self.table.capacity()) * size_of::<u32>()
+    }
+
+    pub(super) fn table_bytes(places: usize, steps: usize) -> usize {
+        (steps + 1) * places * size_of::<u32>()
+    }
+
+    /// The plan.
+    pub(super) fn plan(&self, floor: &Floor, ground: &Ground) -> Plan {
+        let makespan = self.paths.iter().map(|path| path.len() - 1).max().unwrap_or(0);
+        let cell = |step: usize, path: &Vec<u32>| {
+            floor.cell(ground.number(path.get(step).copied().unwrap_or_else(|| path[path.len() - 1])))
+        };
+        let rows = 0..if self.paths.is_empty() { 0 } else { makespan + 1 };
+        let cells = rows.flat_map(|step| self.paths.iter().map(move |path| cell(step, path))).collect();
+        Plan::new(self.paths.len(), cells).expect("a cell for each robot and step")
+    }
+
+    /// The steps until a robot rests.
+    #[inline]
+    pub(super) fn cost(&self, robot: u32) -> usize {
+        self.paths[robot as usize].len() - 1
+    }
+
+    /// The steps that a robot loses.
+    #[inline]
+    pub(super) fn delay(&self, robot: u32) -> usize {
+        self.cost(robot) - self.least[robot as usize] as usize
+    }
+
+    /// Where a robot is at a step.
+    #[inline]
+    pub(super) fn at(&self, step: usize, robot: u32) -> u32 {
+        let path = &self.paths[robot as usize];
+        path[step.min(path.len() - 1)]
+    }
+
+    /// Who is in a place at a step, or [`NONE`].
+    #[inline]
+    pub(super) fn who(&self, step: usize, place: u32) -> u32 {
+        self.table[step.min(self.steps) * self.places + place as usize].wrapping_sub(1)
+    }
+
+    /// A robot, drawn by its share of all delays; `None` if nobody is late.
+    pub(super) fn late(&self, share: f64) -> Option<u32> {
+        let all = *self.delays.last()?;
+        let at = (share * all as f64) as u64;
+        (all > 0).then(|| self.delays.partition_point(|&sum| sum <= at) as u32)
+    }
+
+    pub(super) fn add_delays(&mut self) {
+        let mut sum = 0;
+        self.delays.clear();
+        for robot in 0..self.paths.len() as u32 {
+            sum += self.delay(robot) as u64;
+            self.delays.push(sum);
+        }
+    }
+
+    fn mark(&mut self, path: &[u32], entry: u32) {
+        let last = path[path.len() - 1] as usize;
+        for (step, &place) in path.iter().enumerate() {
+            self.table[step * self.places + place as usize] = entry;
+        }
+        for step in path.len()..=self.steps {
+            self.table[step * self.places + last] = entry;
+        }
+    }
+
+    /// Puts new paths in, if they meet nobody; the change then has the old ones.
+    pub(super) fn make(&mut self, change: &mut Change) -> bool {
+        self.swap(change, false);
+        let fits = change.paths.iter().all(|&(robot, _)| self.fits(robot));
+        if fits {
+            for i in 0..change.paths.len() {
+                let robot = change.paths[i].0;
+                let path = mem::take(&mut self.paths[robot as usize]);
+                self.mark(&path, robot + 1);
+                self.paths[robot as usize] = path;
+            }
+        } else {
+            self.swap(change, true);
+        }
+        fits
+    }
+
+    /// Exchanges the paths of a change with those of the plan; the table has the old ones or none of them.
+    fn swap(&mut self, change: &mut Change, mark: bool) {
+        for (robot, path) in &mut change.paths {
+            if !mark {
+                let old = mem::take(&mut self.paths[*robot as usize]);
+                self.mark(&old, 0);
+                self.paths[*robot as usize] = old;
+            }
+            let cost = self.cost(*robot) as u64;
+            mem::swap(path, &mut self.paths[*robot as usize]);
+            self.sum = self.sum - cost + self.cost(*robot) as u64;
+        }
+        if mark {
+            for (robot, _) in &change.paths {
+                let old = mem::take(&mut self.paths[*robot as usize]);
+                self.mark(&old, *robot + 1);
+                self.paths[*robot as usize] = old;
+            }
+        }
+    }
+
+    /// Whether a robot's path, which is not in the table, meets nobody of the table.
+    fn fits(&self, robot: u32) -> bool {
+        let path = &self.paths[robot as usize];
+        let last = path[path.len() - 1];
+        let meets = |step: usize| {
+            let (here, there) = (path[step - 1], path[step]);
+            let other = self.who(step - 1, there);
+            self.who(step, there) != NONE || other != NONE && self.at(step, other) == here && here != there
+        };
+        path.len() <= self.steps + 1
+            && !(1..path.len()).any(meets)
+            && (path.len()..=self.steps).all(|step| self.who(step, last) == NONE)
+    }
+}
+
+/// The distance of each robot.
+pub(super) fn least(floor: &Floor, fields: &crate::fields::Fields, goals: &[Goal], plan: &Plan) -> Vec<u32> {
+    let distance = |(goal, &cell): (&Goal, _)| fields.steps(floor, goal.slot, floor.number(cell));
+    goals.iter().zip(plan.row(0)).map(distance).collect()
+}

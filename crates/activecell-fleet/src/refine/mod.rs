@@ -1,0 +1,272 @@
+//! Better plans from a plan: some robots give up their paths and are planned again among the others.
+//!
+//! A neighbourhood is a small set of robots that get in each other's way. Their paths are taken out of the plan and looked
+//! for again, one after the other in a random order, each by the [wave through time](crate::Passage). If the new paths
+//! cost no more, they take the place of the old ones. Equal ones are welcome too: they lead to plans from
+//! which there is a way on. Kinds and sizes of neighbourhoods are drawn by what they have brought so far.
+//!
+//! Neighbourhoods are worked off in batches, each from the same plan, by as many threads as there are. What was found is
+//! put in afterwards in a fixed order, where it still fits: the plan does not depend on the number of threads.
+//!
+//! Sources: J. Li, Z. Chen, D. Harabor, P. J. Stuckey, S. Koenig, *Anytime Multi-Agent Path Finding via Large Neighborhood
+//! Search*, IJCAI 2021; the same, *MAPF-LNS2: Fast Repairing for Multi-Agent Path Finding via Large Neighborhood Search*,
+//! AAAI 2022; S.-H. Chan et al., *Anytime Multi-Agent Path Finding Using Operation Parallelism in Large Neighborhood
+//! Search*, 2024.
+
+mod choose;
+mod ground;
+mod incumbent;
+mod roulette;
+mod worker;
+
+use crate::arbitrate::Goal;
+use crate::fields::Fields;
+use crate::floor::Floor;
+use crate::passage::Reservations;
+use activecell::{Plan, Rng, TileField};
+use choose::Task;
+use ground::Ground;
+use incumbent::{Change, Incumbent};
+use roulette::Roulette;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Barrier, Mutex, PoisonError, RwLock};
+use worker::{Proposal, Worker};
+
+/// Batches of a round.
+const BATCHES: usize = 16;
+
+/// The least and the most neighbourhoods of a batch.
+const BATCH: [usize; 2] = [8, 128];
+
+/// Refines a plan, round by round.
+///
+/// ```
+/// use activecell::{Cell, Lattice, Map, Plan};
+/// use activecell_fleet::{Fields, Floor, Goal, Refiner};
+/// let map = Map::parse(Lattice::Square, "...")?;
+/// let floor = Floor::new(&map);
+/// let [west, mid, east] = [0, 1, 2].map(|x| Cell::new(x, 0));
+/// let goals = [floor.number(east)];
+/// let mut fields = Fields::new(&floor);
+/// let slots = fields.request(&floor, &goals, 1)?;
+/// let goals = [Goal { target: goals[0], slot: slots[0] }];
+/// let slow = Plan::new(1, vec![west, west, mid, mid, east])?;
+/// let mut refiner = Refiner::new(&floor, &fields, &goals, &slow, 7);
+/// assert_eq!(refiner.round(2), Some(2));
+/// assert_eq!(refiner.plan(), Plan::new(1, vec![west, mid, east])?);
+/// # Ok::<(), activecell::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Refiner<'a> {
+    floor: &'a Floor,
+    guides: Guides<'a>,
+    ground: Ground,
+    state: State,
+    crew: Vec<Worker>,
+}
+
+/// What a round works on.
+#[derive(Debug)]
+struct State {
+    plan: Incumbent,
+    roulette: Roulette,
+    tasks: Vec<(usize, Task)>,
+    /// Changes of the last batch.
+    changes: Vec<Change>,
+    size: usize,
+    rng: Rng,
+}
+
+/// Where each robot wants to go, and its field.
+#[derive(Debug)]
+struct Guides<'a> {
+    fields: &'a Fields,
+    goals: Vec<Goal>,
+    /// The places of the targets.
+    targets: Vec<u32>,
+}
+
+impl Guides<'_> {
+    #[inline]
+    fn field(&self, robot: u32) -> TileField<'_> {
+        self.fields.field(self.goals[robot as usize].slot)
+    }
+
+    #[inline]
+    fn target(&self, robot: u32) -> u32 {
+        self.targets[robot as usize]
+    }
+}
+
+impl<'a> Refiner<'a> {
+    /// Starts from a plan that leads each robot to its goal by the rules; [`activecell::check_plan`] tells. The same plan and
+    /// seed give the same plans.
+    ///
+    /// # Panics
+    /// If the plan has not as many robots as there are goals, or leaves the floor.
+    pub fn new(floor: &'a Floor, fields: &'a Fields, goals: &[Goal], plan: &Plan, seed: u64) -> Self {
+        assert_eq!(plan.robots(), goals.len(), "a goal for each robot");
+        let ground = Ground::new(floor);
+        let least = incumbent::least(floor, fields, goals, plan);
+        let plan = Incumbent::new(floor, &ground, least, plan);
+        let targets = goals.iter().map(|goal| ground.place(goal.target)).collect();
+        let guides = Guides { fields, goals: goals.to_vec(), targets };
+        let state = State {
+            plan,
+            roulette: Roulette::new(),
+            tasks: Vec::new(),
+            changes: Vec::new(),
+            size: 16,
+            rng: Rng::new(seed),
+        };
+        Self { floor, guides, ground, state, crew: Vec::new() }
+    }
+
+    /// The memory, in bytes, that refining a plan of so many robots and steps takes at most, on so many threads.
+    pub fn bytes_for(floor: &Floor, robots: usize, makespan: usize, threads: usize) -> usize {
+        let steps = makespan + 1;
+        let layout = crate::passage::Layout::new(floor);
+        let worker = Reservations::bytes(floor, makespan) + (steps + 4) * layout.words() * size_of::<u64>();
+        let ground = 16 * floor.numbers() * size_of::<u32>();
+        let paths = 2 * robots * steps * size_of::<u32>();
+        ground + paths + Incumbent::table_bytes(floor.map().free_cells(), makespan) + threads * worker
+    }
+
+    /// The memory that it takes, in bytes.
+    pub fn bytes(&self) -> usize {
+        let crew: usize = self.crew.iter().map(Worker::bytes).sum();
+        self.ground.bytes() + self.state.plan.bytes() + crew
+    }
+
+    /// The sum of costs of the plan.
+    pub const fn sum_of_costs(&self) -> u64 {
+        self.state.plan.sum
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> Plan {
+        self.state.plan.plan(self.floor, &self.ground)
+    }
+
+    /// Goes on from another plan for the same robots.
+    ///
+    /// # Panics
+    /// As [`Self::new`].
+    pub fn replace(&mut self, plan: &Plan) {
+        assert_eq!(plan.robots(), self.guides.goals.len(), "a goal for each robot");
+        let least = std::mem::take(&mut self.state.plan.least);
+        self.state.plan = Incumbent::new(self.floor, &self.ground, least, plan);
+        self.crew.clear();
+    }
+
+    /// Plans a number of neighbourhoods again, on as many threads. The new sum of costs, if it is lower.
+    pub fn round(&mut self, threads: usize) -> Option<u64> {
+        let before = self.state.plan.sum;
+        if self.state.plan.late(0.0).is_none() {
+            return None;
+        }
+        while self.crew.len() < threads.max(1) {
+            self.crew.push(Worker::new(self.floor, &self.ground, &self.state.plan));
+        }
+        let (ground, guides) = (&self.ground, &self.guides);
+        let (crew, idle) = self.crew.split_at_mut(threads.max(1));
+        self.state.draw();
+        if let [worker] = crew {
+            for _ in 0..BATCHES {
+                let state = &mut self.state;
+                let found = state
+                    .tasks
+                    .iter()
+                    .map(|(_, task)| worker.attempt(ground, guides, &state.plan, task))
+                    .collect();
+                state.settle(found);
+                worker.follow(ground, &state.plan, &state.changes);
+                for worker in &mut *idle {
+                    worker.follow(ground, &state.plan, &state.changes);
+                }
+                state.draw();
+            }
+        } else {
+            side_by_side(&mut self.state, crew, ground, guides);
+        }
+        (self.state.plan.sum < before).then_some(self.state.plan.sum)
+    }
+}
+
+/// Works a round off, a worker a thread.
+fn side_by_side(state: &mut State, crew: &mut [Worker], ground: &Ground, guides: &Guides<'_>) {
+    let barrier = Barrier::new(crew.len());
+    let next = AtomicUsize::new(0);
+    let found: Mutex<Vec<(usize, Proposal)>> = Mutex::new(Vec::new());
+    let state = RwLock::new(state);
+    let work = |worker: &mut Worker| {
+        for _ in 0..BATCHES {
+            {
+                let state = state.read().unwrap_or_else(PoisonError::into_inner);
+                let mut own = Vec::new();
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some((_, task)) = state.tasks.get(index) else { break };
+                    own.push((index, worker.attempt(ground, guides, &state.plan, task)));
+                }
+                found.lock().unwrap_or_else(PoisonError::into_inner).append(&mut own);
+            }
+            if barrier.wait().is_leader() {
+                let mut found = std::mem::take(&mut *found.lock().unwrap_or_else(PoisonError::into_inner));
+                found.sort_unstable_by_key(|&(index, _)| index);
+                let mut state = state.write().unwrap_or_else(PoisonError::into_inner);
+                state.settle(found.into_iter().map(|(_, proposal)| proposal).collect());
+                state.draw();
+                next.store(0, Ordering::Relaxed);
+            }
+            barrier.wait();
+            let state = state.read().unwrap_or_else(PoisonError::into_inner);
+            worker.follow(ground, &state.plan, &state.changes);
+        }
+    };
+    std::thread::scope(|scope| {
+        for worker in crew {
+            scope.spawn(|| work(worker));
+        }
+    });
+}
+
+impl State {
+    /// Draws the neighbourhoods of the next batch.
+    fn draw(&mut self) {
+        self.tasks.clear();
+        for _ in 0..self.size {
+            let number = self.roulette.draw(&mut self.rng);
+            let arm = self.roulette.arm(number);
+            self.tasks.push((number, Task { kind: arm.kind, size: arm.size, seed: self.rng.next_u64() }));
+        }
+    }
+
+    /// Puts in what was found, where it still fits: first what gains, then what costs the same.
+    fn settle(&mut self, found: Vec<Proposal>) {
+        self.changes.clear();
+        let mut touched = vec![];
+        let (mut good, mut made) = (0, 0);
+        let gains = found.iter().map(|proposal| proposal.gain).collect::<Vec<_>>();
+        for (proposal, &(arm, _)) in found.iter().zip(&self.tasks) {
+            self.roulette.learn(arm, proposal.gain, proposal.work);
+        }
+        let changes = found.into_iter().zip(gains).filter_map(|(p, gain)| Some((gain > 0, p.change?)));
+        let (gaining, level): (Vec<_>, Vec<_>) = changes.partition(|&(gains, _)| gains);
+        for (gains, mut change) in gaining.into_iter().chain(level) {
+            good += usize::from(gains);
+            if change.paths.iter().any(|(robot, _)| touched.contains(robot)) || !self.plan.make(&mut change) {
+                continue;
+            }
+            made += usize::from(gains);
+            touched.extend(change.paths.iter().map(|&(robot, _)| robot));
+            self.changes.push(change);
+        }
+        if 4 * made < 3 * good {
+            self.size = (self.size / 2).max(BATCH[0]);
+        } else if 10 * made >= 9 * good {
+            self.size = (self.size + 2).min(BATCH[1]);
+        }
+        self.plan.add_delays();
+    }
+}
