@@ -1,12 +1,12 @@
 //! Plans for groups: one active cell per robot on a shared mosaic, all stepping at once.
 //!
 //! ```text
-//! Map + Team ──fields──▶ arbitrate, a step of all robots ──search──▶ Plan ──check──▶ ok | first fault
+//! Map + Team ──fields──▶ arbitrate, a step of all robots ──search, dives──▶ Plan ──refine──▶ Plan ──check──▶ ok | first fault
 //! ```
 //!
 //! [`solve`] does it all. [`Floor`] numbers the cells, [`Fields`] keeps a field of one or two bits a cell for each target,
 //! [`Arbiter`] settles one step of all robots between neighbouring cells, [`Search`] makes that complete and better
-//! with time. What a plan is, and who checks it, is in [`activecell`].
+//! with time, [`dive`] makes plans by robots that look ahead, [`Refiner`] makes plans better. What a plan is, and who checks it, is in [`activecell`].
 //!
 //! ```
 //! use activecell::{Lattice, Map, Team, check_plan};
@@ -22,7 +22,9 @@
 mod arbitrate;
 mod fields;
 mod floor;
+mod guide;
 mod passage;
+mod priorities;
 mod refine;
 mod room;
 mod search;
@@ -31,6 +33,7 @@ mod solve;
 pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
+pub use guide::{Dive, Guide, Problem, dive};
 pub use passage::{Layout, Passage, Reservations};
 pub use refine::Refiner;
 pub use room::Room;

@@ -1,8 +1,10 @@
-//! From a map and a team to a plan: the fields, the search, its limits and its history.
+//! From a map and a team to a plan: the fields, a first plan, dives with guidance, refinement, limits and history.
 
 use crate::arbitrate::{Arbiter, Goal};
 use crate::fields::Fields;
 use crate::floor::Floor;
+use crate::guide::{Budget, Problem, dives};
+use crate::refine::Refiner;
 use crate::room::Room;
 use crate::search::{Advance, Search};
 use activecell::{Error, KeepOuts, Map, Plan, Team};
@@ -24,9 +26,10 @@ pub struct Options {
 pub struct Limits {
     /// Time from the call on; with it, the plan may depend on the machine.
     pub time: Option<Duration>,
-    /// Steps of the search: with this limit alone, the plan is the same everywhere.
+    /// Steps of the search; a dive counts as its steps if it is better than what was there, a round of refinement as
+    /// 256. With this limit alone, the plan is the same everywhere.
     pub steps: Option<u64>,
-    /// Memory of the search, in bytes, without floor and fields.
+    /// Memory of the search, of dives and of refinement, in bytes, each without floor and fields.
     pub bytes: usize,
     /// Whether to stop at the first plan.
     pub first: bool,
@@ -85,7 +88,8 @@ pub struct Improvement {
 /// Why a search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ending {
-    /// Nothing was left to try: without a plan, there is none; with one, there is none of less loss.
+    /// Nothing was left to try: without a plan, there is none; with one, the search went through all that might lose
+    /// less than its own, or the plan costs no more than the lower bound.
     Exhausted,
     /// The first plan was asked for, and found.
     FirstPlan,
@@ -97,8 +101,14 @@ pub enum Ending {
     Memory,
 }
 
-/// A better plan is looked at no more often than once in so many steps: putting it together takes as long as several.
-const LOOK_EVERY: u64 = 256;
+/// The share of the time that dives may take; the rest is for refinement.
+const DIVES_SHARE: f64 = 0.8;
+/// A round of refinement counts as so many steps.
+const ROUND_STEPS: u64 = 256;
+/// So few robots that the search may come to an end.
+const FEW: usize = 8;
+/// Rounds without a better plan after which the search goes on.
+const IDLE: u32 = 20;
 
 /// So many fields are made between two looks at the clock.
 const FIELDS_AT_ONCE: usize = 256;
@@ -148,12 +158,12 @@ pub fn solve(
             return Ok(nothing(Ending::Time, floor.bytes() + fields.bytes()));
         }
     }
-    let goals = targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
-    let arbiter = Arbiter::new(&floor, &fields, goals, options.seed);
+    let goals: Vec<Goal> =
+        targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+    let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
+    let arbiter = Arbiter::new(&floor, &fields, goals.clone(), options.seed);
     let search = Search::new(arbiter, &starts, options.seed);
-    let mut run = Run { search, clock, best: None, history: Vec::new(), steps: 0, watch };
-    let ending = run.until_stopped(&options.limits);
-    let mut outcome = run.outcome(ending);
+    let mut outcome = Run::new(Some(problem), options, search, clock, watch).until_stopped();
     outcome.bytes += floor.bytes() + fields.bytes();
     Ok(outcome)
 }
@@ -224,9 +234,7 @@ fn solve_in_room(
     }
     let arbiter = Arbiter::new(&floor, &fields, goals, options.seed).in_room(&room);
     let search = Search::new(arbiter, &starts, options.seed);
-    let mut run = Run { search, clock, best: None, history: Vec::new(), steps: 0, watch };
-    let ending = run.until_stopped(&options.limits);
-    let mut outcome = run.outcome(ending);
+    let mut outcome = Run::new(None, options, search, clock, watch).until_stopped();
     outcome.bytes += floor.bytes() + room.bytes() + fields.bytes();
     Ok(outcome)
 }
@@ -236,77 +244,199 @@ const fn nothing(ending: Ending, bytes: usize) -> Outcome {
     Outcome { plan: None, ending, history: Vec::new(), lower_bound: 0, steps: 0, bytes }
 }
 
-/// A search with its best plan.
+/// Planning in progress.
 struct Run<'a, W> {
+    /// What dives and refinement work on; none for bodies and among closed cells, which they do not know.
+    problem: Option<Problem<'a>>,
+    options: &'a Options,
     search: Search<'a>,
     clock: Instant,
     /// The sum of costs, and the plan.
     best: Option<(u64, Plan)>,
     history: Vec<Improvement>,
     steps: u64,
+    /// The most memory that refinement took.
+    bytes: usize,
     watch: W,
 }
 
-impl<W: FnMut(&Improvement)> Run<'_, W> {
-    fn until_stopped(&mut self, limits: &Limits) -> Ending {
-        let mut unseen = false;
-        let ending = loop {
-            if let Some(reached) = self.limit(limits) {
-                break reached;
-            }
-            self.steps += 1;
-            match self.search.advance() {
-                Advance::Searching => {}
-                Advance::Better => unseen = true,
-                Advance::Exhausted => break Ending::Exhausted,
-            }
-            if unseen && (self.best.is_none() || self.steps.is_multiple_of(LOOK_EVERY)) {
-                self.look();
-                unseen = false;
-                if limits.first {
-                    break Ending::FirstPlan;
-                }
-            }
-        };
-        if unseen {
-            self.look();
-        }
-        ending
+impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
+    fn new(
+        problem: Option<Problem<'a>>,
+        options: &'a Options,
+        search: Search<'a>,
+        clock: Instant,
+        watch: W,
+    ) -> Self {
+        Self { problem, options, search, clock, best: None, history: Vec::new(), steps: 0, bytes: 0, watch }
     }
 
-    /// What came of it, without the memory of floor and fields.
-    fn outcome(self, ending: Ending) -> Outcome {
+    /// What comes of it, without the memory of floor and fields.
+    fn until_stopped(mut self) -> Outcome {
+        let ending = self.stages();
         let plans = self.best.as_ref().map_or(0, |(_, plan)| plan.bytes());
         Outcome {
             ending,
             lower_bound: self.search.lower_bound(),
             steps: self.steps,
-            bytes: self.search.bytes() + plans,
+            bytes: self.bytes.max(self.search.bytes()) + plans,
             history: self.history,
             plan: self.best.map(|(_, plan)| plan),
         }
     }
 
-    fn limit(&self, limits: &Limits) -> Option<Ending> {
-        if limits.steps.is_some_and(|steps| self.steps >= steps) {
-            return Some(Ending::Steps);
+    /// The stages: a first plan, dives with guidance, refinement.
+    fn stages(&mut self) -> Ending {
+        while self.best.is_none() {
+            if let Some(ending) = self.search_on() {
+                return ending;
+            }
         }
-        if self.search.bytes() > limits.bytes {
+        if self.options.limits.first {
+            return Ending::FirstPlan;
+        }
+        let Some(problem) = self.problem else {
+            return loop {
+                if let Some(ending) = self.search_on() {
+                    break ending;
+                }
+            };
+        };
+        self.dives(problem);
+        self.refine(problem)
+    }
+
+    /// One step of the search, and why it ends with it.
+    fn search_on(&mut self) -> Option<Ending> {
+        if let Some(reached) = self.limit() {
+            return Some(reached);
+        }
+        if self.search.bytes() > self.options.limits.bytes {
             return Some(Ending::Memory);
         }
-        limits.time.is_some_and(|time| self.clock.elapsed() >= time).then_some(Ending::Time)
+        self.steps += 1;
+        match self.search.advance() {
+            Advance::Searching => None,
+            Advance::Better => {
+                self.look();
+                None
+            }
+            Advance::Exhausted => Some(Ending::Exhausted),
+        }
+    }
+
+    /// The first limit of steps and time that is reached.
+    fn limit(&self) -> Option<Ending> {
+        let Limits { time, steps, .. } = self.options.limits;
+        if steps.is_some_and(|steps| self.steps >= steps) {
+            return Some(Ending::Steps);
+        }
+        time.is_some_and(|time| self.clock.elapsed() >= time).then_some(Ending::Time)
     }
 
     /// Looks whether the search's plan is better than the best. It has less loss than those before, but may cost more.
     fn look(&mut self) {
-        let Some(plan) = self.search.plan() else { return };
-        let sum_of_costs = plan.sum_of_costs();
-        if self.best.as_ref().is_none_or(|&(best, _)| sum_of_costs < best) {
-            let ms = self.clock.elapsed().as_secs_f64() * 1e3;
-            let improvement = Improvement { ms, step: self.steps, sum_of_costs };
-            (self.watch)(&improvement);
-            self.history.push(improvement);
-            self.best = Some((sum_of_costs, plan));
+        if let Some(plan) = self.search.plan() {
+            self.take(plan.sum_of_costs(), || plan);
         }
+    }
+
+    /// Takes a plan if it is better than the best.
+    fn take(&mut self, sum_of_costs: u64, plan: impl FnOnce() -> Plan) {
+        if self.best.as_ref().is_none_or(|&(best, _)| sum_of_costs < best) {
+            self.note(sum_of_costs);
+            self.best = Some((sum_of_costs, plan()));
+        }
+    }
+
+    fn note(&mut self, sum_of_costs: u64) {
+        let ms = self.clock.elapsed().as_secs_f64() * 1e3;
+        let improvement = Improvement { ms, step: self.steps, sum_of_costs };
+        (self.watch)(&improvement);
+        self.history.push(improvement);
+    }
+
+    /// Plans of robots that look ahead. Each that is better counts as a step.
+    fn dives(&mut self, problem: Problem<'a>) {
+        let Some(&(best, _)) = self.best.as_ref() else { return };
+        let Limits { time, bytes, .. } = self.options.limits;
+        let (seed, threads, clock) = (self.options.seed, self.options.threads, self.clock);
+        // Refinement gets the rest of the time.
+        if self.limit().is_some() {
+            return;
+        }
+        let stop = || time.is_some_and(|time| clock.elapsed() >= time.mul_f64(DIVES_SHARE));
+        dives(problem, seed, best, &Budget { threads, bytes, stop }, |dive| {
+            if let Some(plan) = dive.plan(problem) {
+                self.steps += plan.steps() as u64;
+                self.take(dive.sum_of_costs, || plan);
+            }
+        });
+    }
+
+    /// Refines the best plan. The search goes on beside it where robots are few, since it may come to an end, and where
+    /// refinement finds nothing more.
+    fn refine(&mut self, problem: Problem<'a>) -> Ending {
+        let Some((mut best, plan)) = self.best.take() else { return Ending::Exhausted };
+        let Problem { floor, fields, goals, starts } = problem;
+        let Options { seed, threads, limits } = *self.options;
+        let mut refiner = Refiner::new(floor, fields, goals, &plan, seed);
+        let room = Refiner::bytes_for(floor, starts.len(), plan.steps(), threads) <= limits.bytes;
+        drop(plan);
+        let mut idle = if room { 0 } else { IDLE };
+        let ending = loop {
+            if best == self.search.lower_bound() {
+                break Ending::Exhausted;
+            }
+            if let Some(reached) = self.limit() {
+                break reached;
+            }
+            self.steps += ROUND_STEPS;
+            if room && refiner.round(threads).is_some() {
+                idle = 0;
+            } else {
+                idle += 1;
+            }
+            let full = self.search.bytes() > limits.bytes;
+            if !full && (starts.len() <= FEW || idle >= IDLE) {
+                let (better, exhausted) = self.search_beside();
+                if let Some(plan) = better.filter(|plan| plan.sum_of_costs() < refiner.sum_of_costs()) {
+                    refiner.replace(&plan);
+                    idle = 0;
+                }
+                if exhausted {
+                    best = refiner.sum_of_costs();
+                    break Ending::Exhausted;
+                }
+            } else if full && idle >= IDLE && (limits.time.is_none() && limits.steps.is_none() || !room) {
+                break Ending::Memory;
+            }
+            if refiner.sum_of_costs() < best {
+                best = refiner.sum_of_costs();
+                self.note(best);
+            }
+        };
+        self.bytes = self.search.bytes() + refiner.bytes();
+        if self.history.last().is_some_and(|last| best < last.sum_of_costs) {
+            self.note(best);
+        }
+        self.best = Some((best, refiner.plan()));
+        ending
+    }
+
+    /// Some steps of the search: a plan of less loss, and whether nothing is left to try.
+    fn search_beside(&mut self) -> (Option<Plan>, bool) {
+        let (mut better, mut exhausted) = (false, false);
+        for _ in 0..ROUND_STEPS {
+            match self.search.advance() {
+                Advance::Searching => {}
+                Advance::Better => better = true,
+                Advance::Exhausted => {
+                    exhausted = true;
+                    break;
+                }
+            }
+        }
+        (if better { self.search.plan() } else { None }, exhausted)
     }
 }

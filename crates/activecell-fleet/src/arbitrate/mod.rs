@@ -171,7 +171,7 @@ impl<'a> Arbiter<'a> {
         let here = now[robot as usize];
         if here == self.goals[robot as usize].target
             && self.cells[here as usize].next == NONE
-            && self.wishes.is_empty()
+            && self.wishes.get(robot as usize).is_none_or(|&wish| wish == here || wish == NONE)
         {
             // At home, and nobody wants in.
             self.cells[here as usize].next = robot;
