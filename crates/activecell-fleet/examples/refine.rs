@@ -1,67 +1,71 @@
-//! Refines the first plan: `refine MAP SCEN N SECONDS [THREADS [SEED]]`.
-use activecell::{Map, Team, check_plan};
+//! Refines the first plan of the first N rows of a scenario and says what it costs with time:
+//! `refine MAP SCEN N SECONDS [THREADS [SEED]]`. Time is that of the processor, shared by the threads.
+
+use activecell::{Cell, Team, check_plan};
 use activecell_fleet::{Advance, Arbiter, Fields, Floor, Goal, Refiner, Search};
 use activecell_formats::movingai::{read_map, read_scen};
 use std::time::Instant;
 
 type Failure = Box<dyn std::error::Error>;
 
+/// The times at which the cost is told, in seconds.
+const MARKS: [f64; 6] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
+
 fn main() -> Result<(), Failure> {
     let args: Vec<String> = std::env::args().skip(1).collect();
-    let map: Map = read_map(&std::fs::read(&args[0])?)?;
-    let robots: usize = args[2].parse()?;
-    let seconds: f64 = args[3].parse()?;
-    let threads: usize = args.get(4).map_or(Ok(2), |t| t.parse())?;
-    let seed: u64 = args.get(5).map_or(Ok(0), |t| t.parse())?;
-    let rows = read_scen(&std::fs::read(&args[1])?)?;
-    let rows = &rows[..robots.min(rows.len())];
-    let team =
-        Team::new(&map, rows.iter().map(|row| row.from).collect(), rows.iter().map(|row| row.to).collect())?;
+    let [map, scen, robots, seconds, rest @ ..] = args.as_slice() else {
+        return Err("refine MAP SCEN N SECONDS [THREADS [SEED]]".into());
+    };
+    let number = |i: usize, default: u64| rest.get(i).map_or(Ok(default), |text| text.parse::<u64>());
+    let (threads, seed) = (number(0, 2)? as usize, number(1, 0)?);
+    let rows = read_scen(&std::fs::read(scen)?)?;
+    let map = read_map(&std::fs::read(map)?)?;
+    let rows = &rows[..robots.parse::<usize>()?.min(rows.len())];
+    let cells = |row: fn(&_) -> Cell| rows.iter().map(row).collect();
+    let team = Team::new(&map, cells(|row| row.from), cells(|row| row.to))?;
     let clock = Instant::now();
     let floor = Floor::new(&map);
-    let numbers =
-        |cells: &[activecell::Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
+    let numbers = |cells: &[Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
     let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
     let mut fields = Fields::new(&floor);
     let slots = fields.request(&floor, &targets, threads)?;
     let goals: Vec<Goal> =
         targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
-    let arbiter = Arbiter::new(&floor, &fields, goals.clone(), seed);
-    let mut search = Search::new(arbiter, &starts, seed);
-    while search.plan().is_none() && search.advance() == Advance::Searching {}
-    let plan = search.plan().ok_or("no plan")?;
+    let mut search = Search::new(Arbiter::new(&floor, &fields, goals.clone(), seed), &starts, seed);
+    while search.loss().is_none() && search.advance() != Advance::Exhausted {}
+    let first = search.plan().ok_or("no plan")?;
     let bound = search.lower_bound();
     drop(search);
-    let first = clock.elapsed().as_secs_f64() * 1e3;
     print!(
-        "{} {} first {first:.0} ms {} makespan {}",
-        args[0].rsplit('/').next().unwrap(),
-        robots,
-        plan.sum_of_costs(),
-        plan.makespan()
+        "{} robots, bound {bound}: {} at {:.0} ms",
+        team.robots(),
+        first.sum_of_costs(),
+        clock.elapsed().as_secs_f64() * 1e3
     );
-    let before = Instant::now();
-    let mut refiner = Refiner::new(&floor, &fields, &goals, &plan, seed);
-    let mut rounds = 0;
-    let marks = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
-    let mut next = 0;
-    print!(" setup {:.0}", before.elapsed().as_secs_f64() * 1e3);
-    while clock.elapsed().as_secs_f64() < seconds {
-        refiner.round(threads);
-        rounds += 1;
-        while next < marks.len() && clock.elapsed().as_secs_f64() >= marks[next] {
-            print!(" | {}s {}", marks[next], refiner.sum_of_costs());
-            next += 1;
+    let before = processor_seconds()?;
+    let mut refiner = Refiner::new(&floor, &fields, &goals, &first, seed);
+    let mut marks = MARKS.into_iter().peekable();
+    loop {
+        let now = before + (processor_seconds()? - before) / threads as f64;
+        while let Some(mark) = marks.next_if(|&mark| mark <= now) {
+            print!(", {} at {mark} s", refiner.sum_of_costs());
         }
+        if now >= seconds.parse()? {
+            break;
+        }
+        refiner.round(threads);
     }
     let plan = refiner.plan();
     check_plan(&map, &team, &plan)?;
-    assert_eq!(plan.sum_of_costs(), refiner.sum_of_costs());
-    println!(
-        " | end {} ratio {:.3} rounds {rounds} {:.1} MB",
-        plan.sum_of_costs(),
-        plan.sum_of_costs() as f64 / bound as f64,
-        refiner.bytes() as f64 / 1e6
-    );
+    let ratio = refiner.sum_of_costs() as f64 / bound as f64;
+    println!(", {} ({ratio:.3}) in the end; {:.1} MB", plan.sum_of_costs(), refiner.bytes() as f64 / 1e6);
     Ok(())
+}
+
+/// The time that the processor has given to this process so far.
+fn processor_seconds() -> Result<f64, Failure> {
+    let stat = std::fs::read_to_string("/proc/self/stat")?;
+    let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or("").split_whitespace().collect();
+    let ticks = |i: usize| fields.get(i).ok_or("no times")?.parse::<f64>().map_err(Failure::from);
+    Ok((ticks(11)? + ticks(12)?) / 100.0)
 }

@@ -69,7 +69,7 @@ fn the_wave_through_time_arrives_as_soon_as_a_plain_search() {
     let (mut found, mut late) = (0, 0);
     for case in 0..3000 {
         let lattice = if case % 2 == 0 { Lattice::Square } else { Lattice::Hex };
-        let [width, height] = [1 + rng.below(if case % 10 == 0 { 90 } else { 9 }), 1 + rng.below(9)];
+        let [width, height] = [1 + rng.below(if case % 5 == 0 { 150 } else { 9 }), 1 + rng.below(9)];
         let map = Map::random(lattice, width, height, 0.2, rng.next_u64()).unwrap();
         let free: Vec<Cell> = map.free().collect();
         if free.is_empty() {

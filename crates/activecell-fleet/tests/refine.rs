@@ -15,7 +15,7 @@ fn team(map: &Map, floor: &Floor, robots: usize, rng: &mut Rng) -> Team {
     let pairs = shuffled().into_iter().zip(shuffled());
     let connected = pairs.filter(|&(a, b)| floor.connected(floor.number(a), floor.number(b)));
     let (starts, targets) = connected.take(robots).unzip();
-    Team::new(map, starts, targets).unwrap()
+    Team::new(map, starts, targets).expect("a team")
 }
 
 /// Calls `with` with the floor's parts and the first plan, if there is one within some steps of search.
@@ -24,7 +24,7 @@ fn first_plan(map: &Map, team: &Team, seed: u64, with: impl FnOnce(&Floor, &Fiel
     let numbers = |cells: &[Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
     let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
     let mut fields = Fields::new(&floor);
-    let slots = fields.request(&floor, &targets, 1).unwrap();
+    let slots = fields.request(&floor, &targets, 1).expect("fields");
     let goals: Vec<Goal> =
         targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
     let mut search = Search::new(Arbiter::new(&floor, &fields, goals.clone(), seed), &starts, seed);
@@ -99,7 +99,7 @@ fn refining_goes_on_from_a_plan_from_elsewhere() {
 fn nobody_and_nobody_late_need_no_refining() {
     let map = Map::parse(Lattice::Hex, "...").unwrap();
     for (starts, targets) in [(vec![], vec![]), (vec![Cell::new(0, 0)], vec![Cell::new(2, 0)])] {
-        let team = Team::new(&map, starts, targets).unwrap();
+        let team = Team::new(&map, starts, targets).expect("a team");
         first_plan(&map, &team, 1, |floor, fields, goals, plan| {
             let mut refiner = Refiner::new(floor, fields, goals, plan, 1);
             assert_eq!(refiner.round(2), None);

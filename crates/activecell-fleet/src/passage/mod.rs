@@ -10,7 +10,7 @@ mod reservations;
 pub use layout::Layout;
 pub use reservations::Reservations;
 
-use activecell::{Lattice, Rng};
+use activecell::{Cell, Lattice, Rng};
 use std::ops::Range;
 
 /// Finds paths among reservations, and keeps its memory between them.
@@ -32,25 +32,30 @@ use std::ops::Range;
 #[derive(Debug, Clone)]
 pub struct Passage {
     layout: Layout,
-    /// On hexagons, the cells of the even and the odd rows.
-    parity: Option<[Vec<u64>; 2]>,
-    /// The planes reached, one a step.
+    /// The planes reached, one a step; zero but for what `written` tells.
     reached: Vec<u64>,
-    /// The words of each plane that were written; all others mean zero.
+    /// The words that are not zero, for each step and strip.
     written: Vec<Range<usize>>,
+    /// Nothing is reached outside the map.
+    outside: Vec<u64>,
+    /// The words of the odd rows of a strip; only hexagons ask.
+    odd: Vec<u64>,
 }
 
 impl Passage {
     /// For planes of this layout.
     pub fn new(layout: &Layout) -> Self {
-        let is_hex = layout.lattice() == Lattice::Hex;
-        let parity = is_hex.then(|| [0, 1].map(|parity| layout.parity(parity)));
-        Self { parity, layout: layout.clone(), reached: Vec::new(), written: Vec::new() }
+        let strip = layout.strip();
+        // Above the first row there is a word.
+        let odd = (0..strip).map(|word| if word % 2 == 0 { u64::MAX } else { 0 }).collect();
+        let layout = layout.clone();
+        Self { layout, reached: Vec::new(), written: Vec::new(), outside: vec![0; strip], odd }
     }
 
     /// The memory that it keeps, in bytes.
     pub fn bytes(&self) -> usize {
-        (self.reached.capacity() + 3 * self.layout.words()) * size_of::<u64>()
+        (self.reached.capacity() + self.outside.len() + self.odd.len()) * size_of::<u64>()
+            + self.written.capacity() * size_of::<Range<usize>>()
     }
 
     /// The path from a cell at step 0 that comes soonest to a target that it can keep for ever: after all others have
@@ -64,23 +69,16 @@ impl Passage {
         latest: usize,
         rng: &mut Rng,
     ) -> Option<Vec<u32>> {
-        let [start, end] = [from, to].map(|bit| self.layout.cell(bit));
-        let distance = self.layout.lattice().distance(start, end) as usize;
+        let cells = [from, to].map(|bit| self.layout.cell(bit));
+        let distance = self.layout.lattice().distance(cells[0], cells[1]) as usize;
         let keeps = taken.free_from(to, distance)?;
         if keeps > latest {
             return None;
         }
-        let (start, end) = (start.y, end.y);
         self.start(from);
         let mut step = 0;
         while step < keeps || !self.reaches(step, to) {
-            if step == latest {
-                return None;
-            }
-            let far = latest - step - 1;
-            let (out, back) = (step as i32 + 1, far as i32);
-            let rows = self.layout.rows((start - out).max(end - back), (start + out).min(end + back));
-            if !self.spread(taken, step, rows) {
+            if step == latest || !self.spread(taken, step, cells, latest) {
                 return None;
             }
             step += 1;
@@ -89,76 +87,77 @@ impl Passage {
     }
 
     /// Sets out from a cell at step 0.
-    pub fn start(&mut self, from: u32) {
+    fn start(&mut self, from: u32) {
+        let size = self.layout.words();
+        for (i, written) in self.written.drain(..).enumerate() {
+            self.reached[i / self.layout.strips() * size..][written].fill(0);
+        }
+        if self.reached.is_empty() {
+            self.reached.resize(size, 0);
+        }
         let word = from as usize / 64;
-        self.reached.resize(self.layout.words(), 0);
-        self.written.clear();
-        self.written.push(word..word + 1);
+        let at = word / self.layout.strip();
+        self.written.resize(self.layout.strips(), 0..0);
+        self.written[at] = word..word + 1;
         self.reached[word] = 1 << (from % 64);
     }
 
     /// Whether the robot can be in a cell at a step that the wave has come to.
     #[inline]
-    pub fn reaches(&self, step: usize, bit: u32) -> bool {
-        let word = bit as usize / 64;
-        self.written[step].contains(&word)
-            && self.reached[step * self.layout.words() + word] >> (bit % 64) & 1 == 1
+    fn reaches(&self, step: usize, bit: u32) -> bool {
+        let (word, size) = (bit as usize / 64, self.layout.words());
+        word < size && self.reached[step * size + word] >> (bit % 64) & 1 == 1
     }
 
-    /// The cells that can be reached at a step, as words from the given word of the layout on.
-    pub fn reached(&self, step: usize) -> (usize, &[u64]) {
-        let written = self.written[step].clone();
-        (written.start, &self.reached[step * self.layout.words()..][written])
-    }
-
-    /// Spreads the wave from a step, the last so far, to the next, in these words. False if nothing is reached any more.
-    pub fn spread(&mut self, taken: &Reservations, step: usize, words: Range<usize>) -> bool {
-        let size = self.layout.words();
+    /// Spreads the wave from a step, the last so far, to the next: to cells from which the last of two, the target, can be
+    /// reached by step `latest`. False if nothing is reached any more.
+    fn spread(&mut self, taken: &Reservations, step: usize, cells: [Cell; 2], latest: usize) -> bool {
+        let (size, strips) = (self.layout.words(), self.layout.strips());
         if self.reached.len() < (step + 2) * size {
             self.reached.resize((step + 2) * size, 0);
         }
-        // Cells that are a row away are reached from what was written.
-        let reach = self.layout.reach();
-        let before = self.written[step].clone();
-        let words = words.start.max(before.start.saturating_sub(reach))..words.end.min(before.end + reach);
-        let words = if words.is_empty() { words.start..words.start } else { words };
         let (old, new) = self.reached.split_at_mut((step + 1) * size);
-        let old = &mut old[step * size..];
-        // What the shifts read around the words must be zero where nothing was written.
-        let around = words.start.saturating_sub(reach)..(words.end + reach).min(size);
-        zero_outside(old, &around, &before);
-        let new = &mut new[words.clone()];
-        new.fill(0);
-        let stride = self.layout.stride() as usize;
-        if let Some([even, odd]) = &self.parity {
-            let crossed = taken.crossed(step, 2);
-            slant(old, crossed, odd, words.start, stride - 1, new);
-            slant(old, crossed, even, words.start, stride + 1, new);
+        let old = &old[step * size..];
+        let around =
+            Around { taken, step, old, outside: &self.outside, odd: &self.odd, strip: self.layout.strip() };
+        let mut any = false;
+        for strip in 0..strips {
+            let reach = neighbourhood(&self.layout, &self.written[step * strips..][..strips], strip);
+            let near = self.layout.near(strip, cells[0], step + 1);
+            let back = self.layout.near(strip, cells[1], latest - step - 1);
+            let (start, end) =
+                (reach.start.max(near.start).max(back.start), reach.end.min(near.end).min(back.end));
+            let mut words = start..end.max(start);
+            match self.layout.lattice() {
+                _ if words.is_empty() => {}
+                Lattice::Square => around.square(&words, &mut new[words.clone()]),
+                Lattice::Hex => around.hex(strip, &words, &mut new[words.clone()]),
+            }
+            while !words.is_empty() && new[words.start] == 0 {
+                words.start += 1;
+            }
+            while !words.is_empty() && new[words.end - 1] == 0 {
+                words.end -= 1;
+            }
+            any |= !words.is_empty();
+            self.written.push(words);
         }
-        let crossed = [0, 1].map(|kind| taken.crossed(step, kind));
-        let any = straight(old, crossed, &taken.free(step + 1)[words.clone()], words.start, stride, new);
-        self.written.truncate(step + 1);
-        self.written.push(words);
         any
     }
 
     /// A path to a cell that is reached at a step, backwards by chance.
-    ///
-    /// # Panics
-    /// If it is not reached.
-    pub fn trace(&self, taken: &Reservations, step: usize, to: u32, rng: &mut Rng) -> Vec<u32> {
+    fn trace(&self, taken: &Reservations, step: usize, to: u32, rng: &mut Rng) -> Vec<u32> {
         let mut path = vec![to; step + 1];
         let mut here = to;
         for step in (0..step).rev() {
             let mut ways = [here; 7];
             let mut count = 0;
             for from in self.layout.around(here).chain([here]) {
-                if self.reaches(step, from) && taken.allows(step, from, here) {
+                if self.reaches(step, from) && !taken.crosses(step, from, here) {
                     ways[count] = from;
                     count += 1;
                 }
             }
-            assert!(count > 0, "the wave came from somewhere");
             here = ways[rng.below(count as u32) as usize];
             path[step] = here;
         }
@@ -166,63 +165,87 @@ impl Passage {
     }
 }
 
-/// Sets the words of `range` that are not in `keep` to zero.
-fn zero_outside(plane: &mut [u64], range: &Range<usize>, keep: &Range<usize>) {
-    plane[range.start..keep.start.clamp(range.start, range.end)].fill(0);
-    plane[keep.end.clamp(range.start, range.end)..range.end].fill(0);
+/// The words of a strip to which a wave can come from the words written in it and in those beside it.
+#[inline]
+fn neighbourhood(layout: &Layout, written: &[Range<usize>], strip: usize) -> Range<usize> {
+    let size = layout.strip();
+    let beside = strip.saturating_sub(1)..(strip + 2).min(layout.strips());
+    let here = beside.filter(|&other| !written[other].is_empty()).map(|other| {
+        // In words of this strip.
+        let of = |word: usize| word + strip * size - other * size;
+        of(written[other].start) - 1..of(written[other].end) + 1
+    });
+    here.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end)).unwrap_or(0..0)
 }
 
-/// Adds to `new`, whose first word is `start` in the planes, the cells of `old` and all that they reach within rows and
-/// `stride` apart, where nobody crosses; then leaves only what is free. Whether anything is left.
-#[inline]
-fn straight(
-    old: &[u64],
-    crossed: [&[u64]; 2],
-    free: &[u64],
-    start: usize,
-    stride: usize,
-    new: &mut [u64],
-) -> bool {
-    let size = new.len();
-    let (skip, rest) = (stride / 64, stride % 64);
-    let [row, column] = crossed;
-    let (left, here, right) = (&old[start - 1..][..size], &old[start..][..size], &old[start + 1..][..size]);
-    let (row_here, row_right) = (&row[start..][..size], &row[start + 1..][..size]);
-    let (above, above_far) = (&old[start - skip..][..size], &old[start - skip - 1..][..size]);
-    let (below, below_far) = (&old[start + skip..][..size], &old[start + skip + 1..][..size]);
-    let column_here = &column[start..][..size];
-    let (column_below, column_far) = (&column[start + skip..][..size], &column[start + skip + 1..][..size]);
-    let free = &free[..size];
-    let mut any = 0;
-    for i in 0..size {
-        // A shift by 64 is one by 1 and 63, so that a rest of 0 needs no branch.
-        let east = (here[i] << 1 | left[i] >> 63) & !row_here[i];
-        let west = (here[i] & !row_here[i]) >> 1 | (right[i] & !row_right[i]) << 63;
-        let south = (above[i] << rest | above_far[i] >> 1 >> (63 - rest)) & !column_here[i];
-        let north =
-            (below[i] & !column_below[i]) >> rest | (below_far[i] & !column_far[i]) << 1 << (63 - rest);
-        new[i] = (new[i] | here[i] | east | west | south | north) & free[i];
-        any |= new[i];
+/// What the wave sees when it spreads.
+struct Around<'a> {
+    taken: &'a Reservations,
+    step: usize,
+    /// The plane reached.
+    old: &'a [u64],
+    outside: &'a [u64],
+    odd: &'a [u64],
+    /// The words of a strip.
+    strip: usize,
+}
+
+impl Around<'_> {
+    /// The same rows of the strip to the west, and of the strip to the east; nothing outside the map.
+    #[inline]
+    fn sides<'p>(&'p self, plane: &'p [u64], words: &Range<usize>) -> [&'p [u64]; 2] {
+        let size = words.len();
+        let outside = &self.outside[..size];
+        let west =
+            if words.start < self.strip { outside } else { &plane[words.start - self.strip..][..size] };
+        let east = words.start + self.strip;
+        let east = if east + size > plane.len() { outside } else { &plane[east..][..size] };
+        [west, east]
     }
-    any != 0
-}
 
-/// Adds to `new` the cells that those of `old` reach over edges `bits` apart, of which the higher end is in `rows`, where
-/// nobody crosses.
-#[inline]
-fn slant(old: &[u64], crossed: &[u64], rows: &[u64], start: usize, bits: usize, new: &mut [u64]) {
-    let size = new.len();
-    let (skip, rest) = (bits / 64, bits % 64);
-    let (above, above_far) = (&old[start - skip..][..size], &old[start - skip - 1..][..size]);
-    let (below, below_far) = (&old[start + skip..][..size], &old[start + skip + 1..][..size]);
-    let (crossed_here, rows_here) = (&crossed[start..][..size], &rows[start..][..size]);
-    let (crossed_below, crossed_far) =
-        (&crossed[start + skip..][..size], &crossed[start + skip + 1..][..size]);
-    let (rows_below, rows_far) = (&rows[start + skip..][..size], &rows[start + skip + 1..][..size]);
-    for i in 0..size {
-        let south = (above[i] << rest | above_far[i] >> 1 >> (63 - rest)) & !crossed_here[i] & rows_here[i];
-        let north = (below[i] & !crossed_below[i] & rows_below[i]) >> rest
-            | (below_far[i] & !crossed_far[i] & rows_far[i]) << 1 << (63 - rest);
-        new[i] |= south | north;
+    /// The cells of these words that are reached at the next step, on squares.
+    fn square(&self, words: &Range<usize>, new: &mut [u64]) {
+        let size = words.len();
+        let [row, column] = [0, 1].map(|kind| self.taken.crossed(self.step, kind));
+        let here = &self.old[words.start - 1..][..size + 2];
+        let [west, east] = self.sides(self.old, words);
+        let [_, row_east] = self.sides(row, words);
+        let (row, column) = (&row[words.start..][..size], &column[words.start..][..=size]);
+        let free = &self.taken.free(self.step + 1)[words.start..][..size];
+        let (new, west, east, row_east) = (&mut new[..size], &west[..size], &east[..size], &row_east[..size]);
+        for i in 0..size {
+            let eastward = (here[i + 1] << 1 | west[i] >> 63) & !row[i];
+            let westward = (here[i + 1] & !row[i]) >> 1 | (east[i] & !row_east[i]) << 63;
+            let down = here[i] & !column[i];
+            let up = here[i + 2] & !column[i + 1];
+            new[i] = (here[i + 1] | eastward | westward | down | up) & free[i];
+        }
+    }
+
+    /// The same on hexagons: cells of odd rows touch those one column east in the rows above and below, others those one
+    /// column west.
+    fn hex(&self, strip: usize, words: &Range<usize>, new: &mut [u64]) {
+        self.square(words, new);
+        let size = words.len();
+        let wide = words.start - 1..words.end + 1;
+        let slanted = self.taken.crossed(self.step, 2);
+        let here = &self.old[wide.clone()][..size + 2];
+        let [west, east] = self.sides(self.old, &wide);
+        let [slanted_west, slanted_east] = self.sides(slanted, &wide);
+        let slanted = &slanted[wide.clone()][..size + 2];
+        let odd = &self.odd[words.start - strip * self.strip..][..size];
+        let free = &self.taken.free(self.step + 1)[words.start..][..size];
+        let (west, east) = (&west[..size + 2], &east[..size + 2]);
+        let (slanted_west, slanted_east) = (&slanted_west[..size + 2], &slanted_east[..size + 2]);
+        for i in 0..size {
+            let lower = here[i + 2] & !slanted[i + 2];
+            let from_west = (here[i] << 1 | west[i] >> 63) & !slanted[i + 1]
+                | lower << 1
+                | (west[i + 2] & !slanted_west[i + 2]) >> 63;
+            let from_east = (here[i] >> 1 | east[i] << 63) & !slanted[i + 1]
+                | lower >> 1
+                | (east[i + 2] & !slanted_east[i + 2]) << 63;
+            new[i] |= (from_east & odd[i] | from_west & !odd[i]) & free[i];
+        }
     }
 }

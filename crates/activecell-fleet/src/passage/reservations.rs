@@ -84,23 +84,24 @@ impl Reservations {
     }
 
     pub(crate) fn mark(&mut self, mut path: impl Iterator<Item = u32>, taken: bool) {
+        let words = self.layout.words();
+        let mut put = |plane: usize, bit: u32, value: bool| {
+            let word = &mut self.planes[plane * words + bit as usize / 64];
+            *word = *word & !(1 << (bit % 64)) | u64::from(value) << (bit % 64);
+        };
         let mut here = path.next().expect("a path has a cell");
-        for step in 0..=self.steps {
-            self.set(step, 0, here, !taken);
-            let next = path.next().unwrap_or(here);
-            if here != next && step < self.steps {
+        let mut rests = 0;
+        for (step, next) in (0..self.steps).zip(path) {
+            let plane = step * self.kinds;
+            put(plane, here, !taken);
+            if here != next {
                 let (kind, edge) = self.layout.edge(here, next);
-                self.set(step, 1 + kind, edge, taken);
+                put(plane + 1 + kind, edge, taken);
             }
             here = next;
+            rests = step + 1;
         }
-    }
-
-    #[inline]
-    fn set(&mut self, step: usize, kind: usize, bit: u32, value: bool) {
-        let at = (step * self.kinds + kind) * self.layout.words() + bit as usize / 64;
-        let word = &mut self.planes[at];
-        *word = *word & !(1 << (bit % 64)) | u64::from(value) << (bit % 64);
+        (rests..=self.steps).for_each(|step| put(step * self.kinds, here, !taken));
     }
 
     #[inline]
@@ -119,11 +120,14 @@ impl Reservations {
     /// and nobody comes the other way.
     #[inline]
     pub fn allows(&self, step: usize, from: u32, to: u32) -> bool {
-        if self.is_taken(step + 1, to) {
-            return false;
-        }
+        !self.is_taken(step + 1, to) && !self.crosses(step, from, to)
+    }
+
+    /// Whether a robot comes the other way.
+    #[inline]
+    pub(super) fn crosses(&self, step: usize, from: u32, to: u32) -> bool {
         let (kind, edge) = self.layout.edge(from, to);
-        from == to || !self.get(step, 1 + kind, edge)
+        from != to && self.get(step, 1 + kind, edge)
     }
 
     /// The first step, from `least` on, from which on a cell is free for ever; `None` if it is taken at the last step.

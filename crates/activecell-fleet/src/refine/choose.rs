@@ -47,6 +47,11 @@ impl Picker {
         Self { chosen: Vec::new(), is_chosen: vec![false; robots] }
     }
 
+    pub(super) fn bytes(&self) -> usize {
+        self.chosen.capacity() * size_of::<u32>() + self.is_chosen.capacity()
+    }
+
+    /// The robots of a task: the first of them is late.
     pub(super) fn pick(
         &mut self,
         ground: &Ground,

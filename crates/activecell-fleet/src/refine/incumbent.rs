@@ -23,9 +23,8 @@ pub(super) struct Incumbent {
     pub(super) sum: u64,
     /// The last step of the table; after it all rest.
     pub(super) steps: usize,
-    places: usize,
-    /// The robot, plus one, in each place at each step.
-    table: Vec<u32>,
+    /// The robot, plus one, in each place at each step, place by place.
+    table: Vec<u16>,
     /// The delays of robots up to each, added up.
     delays: Vec<u64>,
 }
@@ -41,7 +40,7 @@ impl Incumbent {
         let steps = costs.iter().copied().max().unwrap_or(0);
         let sum = costs.iter().map(|&cost| cost as u64).sum();
         let table = vec![0; (steps + 1) * ground.len()];
-        let mut new = Self { paths, least, sum, steps, places: ground.len(), table, delays: Vec::new() };
+        let mut new = Self { paths, least, sum, steps, table, delays: Vec::new() };
         for robot in 0..new.paths.len() as u32 {
             let path = mem::take(&mut new.paths[robot as usize]);
             new.mark(&path, robot + 1);
@@ -54,11 +53,11 @@ impl Incumbent {
     /// The bytes of the table.
     pub(super) fn bytes(&self) -> usize {
         let paths: usize = self.paths.iter().map(Vec::capacity).sum();
-        (paths + self.table.capacity()) * size_of::<u32>()
+        paths * size_of::<u32>() + self.table.capacity() * size_of::<u16>()
     }
 
     pub(super) fn table_bytes(places: usize, steps: usize) -> usize {
-        (steps + 1) * places * size_of::<u32>()
+        (steps + 1) * places * size_of::<u16>()
     }
 
     /// The plan.
@@ -94,7 +93,7 @@ impl Incumbent {
     /// Who is in a place at a step, or [`NONE`].
     #[inline]
     pub(super) fn who(&self, step: usize, place: u32) -> u32 {
-        self.table[step.min(self.steps) * self.places + place as usize].wrapping_sub(1)
+        u32::from(self.table[place as usize * (self.steps + 1) + step.min(self.steps)]).wrapping_sub(1)
     }
 
     /// A robot, drawn by its share of all delays; `None` if nobody is late.
@@ -114,13 +113,12 @@ impl Incumbent {
     }
 
     fn mark(&mut self, path: &[u32], entry: u32) {
-        let last = path[path.len() - 1] as usize;
+        let line = self.steps + 1;
         for (step, &place) in path.iter().enumerate() {
-            self.table[step * self.places + place as usize] = entry;
+            self.table[place as usize * line + step] = entry as u16;
         }
-        for step in path.len()..=self.steps {
-            self.table[step * self.places + last] = entry;
-        }
+        let last = path[path.len() - 1] as usize;
+        self.table[last * line..][path.len()..line].fill(entry as u16);
     }
 
     /// Puts new paths in, if they meet nobody; the change then has the old ones.

@@ -28,12 +28,16 @@ use choose::Task;
 use ground::Ground;
 use incumbent::{Change, Incumbent};
 use roulette::Roulette;
+use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Barrier, Mutex, PoisonError, RwLock};
 use worker::{Proposal, Worker};
 
 /// Batches of a round.
 const BATCHES: usize = 16;
+
+/// More robots are left as they are: the table of who is where has two bytes an entry.
+const MOST_ROBOTS: usize = u16::MAX as usize - 1;
 
 /// The least and the most neighbourhoods of a batch.
 const BATCH: [usize; 2] = [8, 128];
@@ -111,7 +115,7 @@ impl<'a> Refiner<'a> {
         let plan = Incumbent::new(floor, &ground, least, plan);
         let targets = goals.iter().map(|goal| ground.place(goal.target)).collect();
         let guides = Guides { fields, goals: goals.to_vec(), targets };
-        let state = State {
+        let mut state = State {
             plan,
             roulette: Roulette::new(),
             tasks: Vec::new(),
@@ -119,6 +123,7 @@ impl<'a> Refiner<'a> {
             size: 16,
             rng: Rng::new(seed),
         };
+        state.draw();
         Self { floor, guides, ground, state, crew: Vec::new() }
     }
 
@@ -159,37 +164,37 @@ impl<'a> Refiner<'a> {
         self.crew.clear();
     }
 
-    /// Plans a number of neighbourhoods again, on as many threads. The new sum of costs, if it is lower.
+    /// Plans a number of neighbourhoods again, on as many threads. The new sum of costs, if it is lower. Each thread
+    /// keeps reservations of its own; more than 65,534 robots are left as they are.
     pub fn round(&mut self, threads: usize) -> Option<u64> {
         let before = self.state.plan.sum;
-        if self.state.plan.late(0.0).is_none() {
+        if self.guides.goals.len() > MOST_ROBOTS || self.state.plan.late(0.0).is_none() {
             return None;
         }
-        while self.crew.len() < threads.max(1) {
+        let threads = threads.max(1);
+        while self.crew.len() < threads {
             self.crew.push(Worker::new(self.floor, &self.ground, &self.state.plan));
         }
         let (ground, guides) = (&self.ground, &self.guides);
-        let (crew, idle) = self.crew.split_at_mut(threads.max(1));
-        self.state.draw();
-        if let [worker] = crew {
-            for _ in 0..BATCHES {
-                let state = &mut self.state;
-                let found = state
-                    .tasks
-                    .iter()
-                    .map(|(_, task)| worker.attempt(ground, guides, &state.plan, task))
-                    .collect();
-                state.settle(found);
-                worker.follow(ground, &state.plan, &state.changes);
-                for worker in &mut *idle {
-                    worker.follow(ground, &state.plan, &state.changes);
-                }
-                state.draw();
-            }
-        } else {
-            side_by_side(&mut self.state, crew, ground, guides);
+        // Fewer threads than before: what the others keep would be out of date.
+        self.crew.truncate(threads);
+        let crew = &mut self.crew[..];
+        match crew {
+            [worker] => alone(&mut self.state, worker, ground, guides),
+            _ => side_by_side(&mut self.state, crew, ground, guides),
         }
         (self.state.plan.sum < before).then_some(self.state.plan.sum)
+    }
+}
+
+/// Works a round off with one worker.
+fn alone(state: &mut State, worker: &mut Worker, ground: &Ground, guides: &Guides<'_>) {
+    for _ in 0..BATCHES {
+        let tasks = state.tasks.iter();
+        let found = tasks.map(|(_, task)| worker.attempt(ground, guides, &state.plan, task)).collect();
+        state.settle(found);
+        worker.follow(ground, &state.plan, &state.changes);
+        state.draw();
     }
 }
 
@@ -245,23 +250,23 @@ impl State {
     /// Puts in what was found, where it still fits: first what gains, then what costs the same.
     fn settle(&mut self, found: Vec<Proposal>) {
         self.changes.clear();
-        let mut touched = vec![];
-        let (mut good, mut made) = (0, 0);
-        let gains = found.iter().map(|proposal| proposal.gain).collect::<Vec<_>>();
         for (proposal, &(arm, _)) in found.iter().zip(&self.tasks) {
             self.roulette.learn(arm, proposal.gain, proposal.work);
         }
-        let changes = found.into_iter().zip(gains).filter_map(|(p, gain)| Some((gain > 0, p.change?)));
+        let changes = found.into_iter().filter_map(|proposal| Some((proposal.gain > 0, proposal.change?)));
         let (gaining, level): (Vec<_>, Vec<_>) = changes.partition(|&(gains, _)| gains);
+        let (good, mut made) = (gaining.len(), 0);
+        let mut touched = BTreeSet::new();
         for (gains, mut change) in gaining.into_iter().chain(level) {
-            good += usize::from(gains);
-            if change.paths.iter().any(|(robot, _)| touched.contains(robot)) || !self.plan.make(&mut change) {
+            let robots: Vec<u32> = change.paths.iter().map(|&(robot, _)| robot).collect();
+            if robots.iter().any(|robot| touched.contains(robot)) || !self.plan.make(&mut change) {
                 continue;
             }
             made += usize::from(gains);
-            touched.extend(change.paths.iter().map(|&(robot, _)| robot));
+            touched.extend(robots);
             self.changes.push(change);
         }
+        // Where much does not fit any more, smaller batches waste less.
         if 4 * made < 3 * good {
             self.size = (self.size / 2).max(BATCH[0]);
         } else if 10 * made >= 9 * good {

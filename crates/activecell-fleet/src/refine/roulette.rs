@@ -12,6 +12,7 @@ pub(super) struct Roulette {
     arms: Vec<Arm>,
 }
 
+/// A kind and a size, with what they have brought and taken.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Arm {
     pub(super) kind: Kind,
@@ -20,7 +21,7 @@ pub(super) struct Arm {
     work: f64,
 }
 
-/// What an arm keeps of its past when its work doubles.
+/// What an arm keeps of its past each time.
 const FADE: f64 = 0.99;
 
 impl Roulette {
