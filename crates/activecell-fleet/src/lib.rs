@@ -6,7 +6,8 @@
 //!
 //! [`solve`] does it all. [`Floor`] numbers the cells, [`Fields`] keeps a field of one or two bits a cell for each target,
 //! [`Arbiter`] settles one step of all robots between neighbouring cells, [`Search`] makes that complete and better
-//! with time, [`dive`] makes plans by robots that look ahead, [`Refiner`] makes plans better. What a plan is, and who checks it, is in [`activecell`].
+//! with time, [`dive`] makes plans by robots that look ahead, [`Refiner`] makes plans better. What a plan is, and who
+//! checks it, is in [`activecell`].
 //!
 //! ```
 //! use activecell::{Lattice, Map, Team, check_plan};

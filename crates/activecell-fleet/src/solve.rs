@@ -102,7 +102,7 @@ pub enum Ending {
 }
 
 /// The share of the time that dives may take; the rest is for refinement.
-const DIVES_SHARE: f64 = 0.8;
+const DIVES_SHARE: f64 = 0.9;
 /// A round of refinement counts as so many steps.
 const ROUND_STEPS: u64 = 256;
 /// So few robots that the search may come to an end.

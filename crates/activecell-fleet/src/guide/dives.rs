@@ -116,7 +116,7 @@ mod tests {
     fn what_comes_in_any_order_is_passed_on_in_order() {
         let mut passed = Vec::new();
         in_order([(2, Some('c')), (0, Some('a')), (3, None), (1, None), (4, Some('e'))], |item| {
-            passed.push(item)
+            passed.push(item);
         });
         assert_eq!(passed, ['a', 'c', 'e']);
     }
