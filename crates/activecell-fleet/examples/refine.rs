@@ -53,7 +53,7 @@ fn main() -> Result<(), Failure> {
         if now >= seconds.parse()? {
             break;
         }
-        refiner.round(threads);
+        refiner.round(threads, &|| false);
     }
     let plan = refiner.plan();
     check_plan(&map, &team, &plan)?;

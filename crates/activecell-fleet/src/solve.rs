@@ -295,15 +295,26 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
         if self.options.limits.first {
             return Ending::FirstPlan;
         }
-        let Some(problem) = self.problem else {
-            return loop {
-                if let Some(ending) = self.search_on() {
-                    break ending;
-                }
-            };
-        };
-        self.dives(problem);
-        self.refine(problem)
+        if let Some(problem) = self.problem {
+            self.dives(problem);
+            if let Some(threads) = self.threads_to_refine(problem) {
+                return self.refine(problem, threads);
+            }
+        }
+        loop {
+            if let Some(ending) = self.search_on() {
+                return ending;
+            }
+        }
+    }
+
+    /// The threads whose refinement fits into the memory; what comes of it does not depend on them.
+    fn threads_to_refine(&self, problem: Problem<'a>) -> Option<usize> {
+        let Problem { floor, starts, .. } = problem;
+        let (_, plan) = self.best.as_ref()?;
+        let Options { threads, limits, .. } = self.options;
+        let bytes = |threads| Refiner::bytes_for(floor, starts.len(), plan.steps(), threads);
+        (1..=(*threads).max(1)).rev().find(|&threads| bytes(threads) <= limits.bytes)
     }
 
     /// One step of the search, and why it ends with it.
@@ -376,14 +387,15 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
 
     /// Refines the best plan. The search goes on beside it where robots are few, since it may come to an end, and where
     /// refinement finds nothing more.
-    fn refine(&mut self, problem: Problem<'a>) -> Ending {
+    fn refine(&mut self, problem: Problem<'a>, threads: usize) -> Ending {
         let Some((mut best, plan)) = self.best.take() else { return Ending::Exhausted };
         let Problem { floor, fields, goals, starts } = problem;
-        let Options { seed, threads, limits } = *self.options;
+        let Options { seed, limits, .. } = *self.options;
         let mut refiner = Refiner::new(floor, fields, goals, &plan, seed);
-        let room = Refiner::bytes_for(floor, starts.len(), plan.steps(), threads) <= limits.bytes;
         drop(plan);
-        let mut idle = if room { 0 } else { IDLE };
+        let clock = self.clock;
+        let late = || limits.time.is_some_and(|time| clock.elapsed() >= time);
+        let mut idle = 0;
         let ending = loop {
             if best == self.search.lower_bound() {
                 break Ending::Exhausted;
@@ -392,7 +404,7 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
                 break reached;
             }
             self.steps += ROUND_STEPS;
-            if room && refiner.round(threads).is_some() {
+            if refiner.round(threads, &late).is_some() {
                 idle = 0;
             } else {
                 idle += 1;
@@ -408,7 +420,7 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
                     best = refiner.sum_of_costs();
                     break Ending::Exhausted;
                 }
-            } else if full && idle >= IDLE && (limits.time.is_none() && limits.steps.is_none() || !room) {
+            } else if full && idle >= IDLE && limits.time.is_none() && limits.steps.is_none() {
                 break Ending::Memory;
             }
             if refiner.sum_of_costs() < best {

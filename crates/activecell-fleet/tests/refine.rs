@@ -58,8 +58,8 @@ fn refined_plans_are_right_and_never_dearer() {
             let mut sum = plan.sum_of_costs();
             before += sum;
             for _ in 0..4 {
-                let better = one.round(1);
-                assert_eq!(better, two.round(2));
+                let better = one.round(1, &|| false);
+                assert_eq!(better, two.round(2, &|| false));
                 assert_eq!(better, (one.sum_of_costs() < sum).then_some(one.sum_of_costs()));
                 assert!(one.sum_of_costs() <= sum);
                 let refined = one.plan();
@@ -82,13 +82,13 @@ fn refining_goes_on_from_a_plan_from_elsewhere() {
     let team = team(&map, &Floor::new(&map), 60, &mut Rng::new(2));
     first_plan(&map, &team, 1, |floor, fields, goals, plan| {
         let mut refiner = Refiner::new(floor, fields, goals, plan, 1);
-        refiner.round(2);
+        refiner.round(2, &|| false);
         let better = refiner.plan();
         refiner.replace(plan);
         assert_eq!(refiner.plan().costs(), plan.costs());
         refiner.replace(&better);
         assert_eq!(refiner.plan(), better);
-        refiner.round(1);
+        refiner.round(1, &|| false);
         assert_eq!(check_plan(&map, &team, &refiner.plan()), Ok(()));
         let promised = Refiner::bytes_for(floor, team.robots(), plan.makespan(), 2);
         assert!(refiner.bytes() <= promised, "{} of {promised} bytes", refiner.bytes());
@@ -102,7 +102,7 @@ fn nobody_and_nobody_late_need_no_refining() {
         let team = Team::new(&map, starts, targets).expect("a team");
         first_plan(&map, &team, 1, |floor, fields, goals, plan| {
             let mut refiner = Refiner::new(floor, fields, goals, plan, 1);
-            assert_eq!(refiner.round(2), None);
+            assert_eq!(refiner.round(2, &|| false), None);
             assert_eq!(&refiner.plan(), plan);
         });
     }

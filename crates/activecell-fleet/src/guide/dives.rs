@@ -27,9 +27,9 @@ fn kinds(problem: Problem<'_>) -> Vec<Guide> {
         starts.iter().zip(goals).map(|(&start, goal)| u64::from(fields.steps(floor, goal.slot, start)));
     let longest = steps.max().unwrap_or(0);
     if longest * starts.len() as u64 > HUGE {
-        return vec![Guide::Local(7), Guide::Local(5)];
+        return vec![Guide::Local(7), Guide::Local(10)];
     }
-    vec![Guide::Spread(10), Guide::Local(10), Guide::Spread(20), Guide::Local(20)]
+    vec![Guide::Spread(10), Guide::Local(10)]
 }
 
 /// Makes a dive of each kind and gives `found` those that are better than `best` and all before them, in the order of the
@@ -58,7 +58,8 @@ pub(crate) fn dives(
                     let number = taken.fetch_add(1, Ordering::Relaxed);
                     let Some(&kind) = kinds.get(number) else { return };
                     let before = || costs[..number].iter().map(|cost| cost.load(Ordering::Relaxed)).min();
-                    let room = bytes(problem, kind) <= budget.bytes / threads;
+                    // As if all ran at once, so that the number of threads changes nothing.
+                    let room = bytes(problem, kind) <= budget.bytes / kinds.len();
                     let stop = |bound| bound >= best.min(before().unwrap_or(best)) || (budget.stop)();
                     let dive = if room { dive(problem, kind, seeds[number], &stop) } else { None };
                     if let Some(dive) = &dive {

@@ -56,7 +56,7 @@ const BATCH: [usize; 2] = [8, 128];
 /// let goals = [Goal { target: goals[0], slot: slots[0] }];
 /// let slow = Plan::new(1, vec![west, west, mid, mid, east])?;
 /// let mut refiner = Refiner::new(&floor, &fields, &goals, &slow, 7);
-/// assert_eq!(refiner.round(2), Some(2));
+/// assert_eq!(refiner.round(2, &|| false), Some(2));
 /// assert_eq!(refiner.plan(), Plan::new(1, vec![west, mid, east])?);
 /// # Ok::<(), activecell::Error>(())
 /// ```
@@ -164,9 +164,9 @@ impl<'a> Refiner<'a> {
         self.crew.clear();
     }
 
-    /// Plans a number of neighbourhoods again, on as many threads. The new sum of costs, if it is lower. Each thread
+    /// Plans a number of neighbourhoods again, on as many threads, fewer once `stop` says so. The new sum of costs, if it is lower. Each thread
     /// keeps reservations of its own; more than 65,534 robots are left as they are.
-    pub fn round(&mut self, threads: usize) -> Option<u64> {
+    pub fn round(&mut self, threads: usize, stop: &(impl Fn() -> bool + Sync)) -> Option<u64> {
         let before = self.state.plan.sum;
         if self.guides.goals.len() > MOST_ROBOTS || self.state.plan.late(0.0).is_none() {
             return None;
@@ -180,17 +180,23 @@ impl<'a> Refiner<'a> {
         self.crew.truncate(threads);
         let crew = &mut self.crew[..];
         match crew {
-            [worker] => alone(&mut self.state, worker, ground, guides),
-            _ => side_by_side(&mut self.state, crew, ground, guides),
+            [worker] => alone(&mut self.state, worker, ground, guides, stop),
+            _ => side_by_side(&mut self.state, crew, ground, guides, stop),
         }
         (self.state.plan.sum < before).then_some(self.state.plan.sum)
     }
 }
 
 /// Works a round off with one worker.
-fn alone(state: &mut State, worker: &mut Worker, ground: &Ground, guides: &Guides<'_>) {
+fn alone(
+    state: &mut State,
+    worker: &mut Worker,
+    ground: &Ground,
+    guides: &Guides<'_>,
+    stop: &impl Fn() -> bool,
+) {
     for _ in 0..BATCHES {
-        let tasks = state.tasks.iter();
+        let tasks = state.tasks.iter().take_while(|_| !stop());
         let found = tasks.map(|(_, task)| worker.attempt(ground, guides, &state.plan, task)).collect();
         state.settle(found);
         worker.follow(ground, &state.plan, &state.changes);
@@ -199,7 +205,13 @@ fn alone(state: &mut State, worker: &mut Worker, ground: &Ground, guides: &Guide
 }
 
 /// Works a round off, a worker a thread.
-fn side_by_side(state: &mut State, crew: &mut [Worker], ground: &Ground, guides: &Guides<'_>) {
+fn side_by_side(
+    state: &mut State,
+    crew: &mut [Worker],
+    ground: &Ground,
+    guides: &Guides<'_>,
+    stop: &(impl Fn() -> bool + Sync),
+) {
     let barrier = Barrier::new(crew.len());
     let next = AtomicUsize::new(0);
     let found: Mutex<Vec<(usize, Proposal)>> = Mutex::new(Vec::new());
@@ -209,7 +221,7 @@ fn side_by_side(state: &mut State, crew: &mut [Worker], ground: &Ground, guides:
             {
                 let state = state.read().unwrap_or_else(PoisonError::into_inner);
                 let mut own = Vec::new();
-                loop {
+                while !stop() {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some((_, task)) = state.tasks.get(index) else { break };
                     own.push((index, worker.attempt(ground, guides, &state.plan, task)));
