@@ -22,6 +22,7 @@
 mod arbitrate;
 mod fields;
 mod floor;
+mod lifelong;
 mod passage;
 mod search;
 mod solve;
@@ -29,6 +30,9 @@ mod solve;
 pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
+pub use lifelong::{
+    Assignment, Lifelong, LifelongOptions, MAX_WINDOW, StepReport, deliveries, visits, within_reach,
+};
 pub use passage::{Layout, Passage, Reservations};
 pub use search::{Advance, Search};
 pub use solve::{Ending, Improvement, Limits, Options, Outcome, solve};

@@ -128,6 +128,22 @@ pub enum Error {
         /// Their target.
         cell: Cell,
     },
+    /// A task without a cell to visit.
+    EmptyTask,
+    /// One task of many is at fault.
+    OfTask {
+        /// The task, counted from 0.
+        task: usize,
+        /// What is wrong.
+        error: Box<Error>,
+    },
+    /// No way leads to a cell that a task wants visited.
+    Unreachable {
+        /// A cell where a robot is.
+        from: Cell,
+        /// The cell.
+        to: Cell,
+    },
     /// The cells of a plan are not a whole number of steps.
     PlanSize {
         /// Robots of the plan.
@@ -185,6 +201,11 @@ impl fmt::Display for Error {
             }
             Self::SharedTarget { robots: [a, b], cell } => {
                 write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
+            }
+            Self::EmptyTask => write!(f, "a task without a cell to visit; give it at least one"),
+            Self::OfTask { task, error } => write!(f, "task {task}: {error}"),
+            Self::Unreachable { from, to } => {
+                write!(f, "no way leads from {from}, where a robot is, to {to}; leave out one or the other")
             }
             Self::PlanSize { robots, cells } => write!(
                 f,

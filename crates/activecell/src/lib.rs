@@ -54,7 +54,9 @@ pub use calibrate::{
 pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
-pub use fleet::{Plan, PlanFault, Team, check_plan};
+pub use fleet::{
+    Event, Journal, JournalFault, Moves, News, Plan, PlanFault, Task, Team, check_journal, check_plan,
+};
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{
     BitPlane, Clearance, Elevation, Frame, Ground, MAX_CELLS, Map, PointM, Posts, Profile, Tiling,

@@ -144,10 +144,24 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
             return Err(PlanFault::WrongStart { robot, cell, start });
         }
     }
+    check_moves(map, plan.rows())?;
+    let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
+    for (robot, (&cell, &target)) in ends {
+        if cell != target {
+            return Err(PlanFault::NotArrived { robot, cell, target });
+        }
+    }
+    Ok(())
+}
+
+/// Checks where all robots are at each step, from step 0 on: on free cells of the map, a step apart, never two in a cell,
+/// never two swapping.
+pub(super) fn check_moves<'a>(map: &Map, rows: impl Iterator<Item = &'a [Cell]>) -> Result<(), PlanFault> {
     let mut before = Standing::new(map);
     let mut now = Standing::new(map);
-    for (step, row) in plan.rows().enumerate() {
-        let from = if step == 0 { row } else { plan.row(step - 1) };
+    let mut past: Option<&[Cell]> = None;
+    for (step, row) in rows.enumerate() {
+        let from = past.unwrap_or(row);
         for (robot, &cell) in row.iter().enumerate() {
             check_move(map, step, robot, from[robot], cell)?;
             if let Some(other) = now.enter(map, cell, robot) {
@@ -163,12 +177,7 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
             before.leave(map, from);
         }
         std::mem::swap(&mut before, &mut now);
-    }
-    let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
-    for (robot, (&cell, &target)) in ends {
-        if cell != target {
-            return Err(PlanFault::NotArrived { robot, cell, target });
-        }
+        past = Some(row);
     }
     Ok(())
 }

@@ -8,9 +8,13 @@
 //! Source of the model: R. Stern et al., *Multi-Agent Pathfinding: Definitions, Variants, and Benchmarks*, `SoCS` 2019.
 
 mod check;
+mod check_journal;
+mod journal;
 mod plan;
 mod team;
 
 pub use check::{PlanFault, check_plan};
+pub use check_journal::{JournalFault, check_journal};
+pub use journal::{Event, Journal, Moves, News, Task};
 pub use plan::Plan;
 pub use team::Team;
