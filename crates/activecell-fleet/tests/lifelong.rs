@@ -95,6 +95,28 @@ fn a_robot_alone_takes_as_many_steps_as_a_plain_search() {
     }
 }
 
+/// Floors too large for tables of distances: each robot has what it needs around it.
+#[test]
+fn large_floors_go_as_well() {
+    for (case, moves) in MOVES.into_iter().chain(MOVES).enumerate() {
+        let map = Map::random(Lattice::ALL[case / 2], 150, 140, 0.15, case as u64).unwrap();
+        let cells =
+            map.free().map(|cell| (cell, within_reach(&map, cell))).find(|(_, cells)| cells.len() > 16_384);
+        let (_, cells) = cells.unwrap();
+        let starts: Vec<Cell> = cells.iter().copied().step_by(60).collect();
+        let near: Vec<Cell> = cells.iter().copied().filter(|cell| cell.x < 40 && cell.y < 40).collect();
+        let tasks = deliveries(&near, &cells, 500, 3);
+        let options = LifelongOptions { window: 8, threads: 2, ..options(moves, 1) };
+        let crowd = journal(&map, &starts, &tasks, options.clone(), 60);
+        assert!(crowd.events().iter().filter(|event| event.news == News::Done(0)).count() > 10);
+        if moves == Moves::Omni {
+            let tasks = [Task::visit(cells[cells.len() - 1])];
+            let alone = journal(&map, &cells[..1], &tasks, options, 1000);
+            assert_eq!(alone.steps(), plain(&map, moves, cells[0], cells[cells.len() - 1]));
+        }
+    }
+}
+
 fn plain(map: &Map, moves: Moves, from: Cell, to: Cell) -> usize {
     let mut seen = std::collections::BTreeSet::from([(from, Dir::E)]);
     let mut rim: Vec<(Cell, Dir)> = seen.iter().copied().collect();

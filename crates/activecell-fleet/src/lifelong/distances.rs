@@ -11,6 +11,8 @@ use std::collections::BTreeMap;
 const TABLES: usize = 256 << 20;
 /// How far a robot may go before the cut-out around it is made anew.
 const SLACK: u32 = 8;
+/// Cut-outs below which a thread is not worth its start.
+const MIN_SHARE: usize = 64;
 /// No way, or too far away to matter.
 const FAR: u16 = u16::MAX;
 
@@ -57,7 +59,6 @@ pub(super) struct Around {
     /// Cells to each side of a robot.
     radius: u32,
     patches: Vec<Patch>,
-    queue: Vec<(u32, u16)>,
 }
 
 /// The distances around one robot.
@@ -69,7 +70,11 @@ struct Patch {
     values: Box<[u16]>,
 }
 
+/// A robot whose cut-out must be made anew, its cell, and its target with the slot of its field.
+type Stale = (usize, u32, Option<(u32, u32)>);
+
 impl Distances {
+    /// Nobody wants to go anywhere yet.
     pub(super) fn new(ground: &Ground, floor: Floor, robots: usize, steps: usize) -> Self {
         let table = ground.spots() * ground.headings() as usize * size_of::<u16>();
         if table.saturating_mul(ground.map.free_cells()) <= TABLES && ground.map.free_cells() < 1 << 14 {
@@ -81,7 +86,6 @@ impl Distances {
             users: BTreeMap::new(),
             radius: steps as u32 + SLACK,
             patches: vec![Patch::default(); robots],
-            queue: Vec::new(),
         }))
     }
 
@@ -206,32 +210,56 @@ impl Around {
         let wanted: Vec<u32> = stale.iter().filter_map(|&(.., target)| Some(number(target?))).collect();
         let slots = self.fields.request(&self.floor, &wanted, threads)?;
         let mut slots = slots.into_iter();
-        for (robot, spot, _, target) in stale {
-            let slot = target.and_then(|_| slots.next());
-            self.patch(ground, robot, spot, target, slot);
+        let work: Vec<Stale> = stale
+            .into_iter()
+            .map(|(robot, spot, _, target)| {
+                (robot, spot, target.and_then(|cell| Some((cell, slots.next()?))))
+            })
+            .collect();
+        let around = &*self;
+        let share = work.len().div_ceil(threads.max(1)).max(MIN_SHARE);
+        let made: Vec<Patch> = std::thread::scope(|scope| {
+            let make = |part: &[Stale]| -> Vec<Patch> {
+                let mut queue = Vec::new();
+                part.iter().map(|&(_, spot, goal)| around.patch(ground, spot, goal, &mut queue)).collect()
+            };
+            let mut parts = work.chunks(share);
+            let first = parts.next().unwrap_or_default();
+            let others: Vec<_> = parts.map(|part| scope.spawn(move || make(part))).collect();
+            let mut made = make(first);
+            for other in others {
+                made.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+            }
+            made
+        });
+        for ((robot, ..), patch) in work.into_iter().zip(made) {
+            self.patches[robot] = patch;
         }
         Ok(())
     }
 
-    /// Makes the distances around a robot anew.
-    fn patch(&mut self, ground: &Ground, robot: usize, spot: u32, target: Option<u32>, slot: Option<u32>) {
+    /// The distances to a target around a cell; the target comes with the slot of its field.
+    fn patch(
+        &self,
+        ground: &Ground,
+        spot: u32,
+        goal: Option<(u32, u32)>,
+        queue: &mut Vec<(u32, u16)>,
+    ) -> Patch {
+        let Some((target, slot)) = goal else {
+            return Patch { centre: spot, ..Patch::default() };
+        };
         let (span, radius) = (self.span() as i32, self.radius as i32);
         let headings = ground.headings();
-        let local = |cell: activecell::Cell, centre: activecell::Cell| {
+        let Self { floor, fields, .. } = self;
+        let centre = ground.cell(spot);
+        let local = |cell: activecell::Cell| {
             let (x, y) = (cell.x - centre.x + radius, cell.y - centre.y + radius);
             ((0..span).contains(&x) && (0..span).contains(&y)).then(|| (y * span + x) as usize)
         };
-        let Self { floor, fields, patches, queue, .. } = self;
-        let patch = &mut patches[robot];
-        let here = floor.number(ground.cell(spot));
-        let Some(slot) = slot else {
-            *patch = Patch { target: None, centre: spot, values: Box::default() };
-            return;
-        };
+        let here = floor.number(centre);
         let steps = fields.steps(floor, slot, here);
-        patch.values = vec![FAR; (span * span) as usize * headings as usize].into_boxed_slice();
-        (patch.target, patch.centre) = (target, spot);
-        let centre = ground.cell(spot);
+        let mut all = vec![FAR; (span * span) as usize * headings as usize].into_boxed_slice();
         let field = fields.field(slot);
         queue.clear();
         queue.push((here, steps.min(u32::from(FAR) / 2) as u16));
@@ -239,8 +267,8 @@ impl Around {
         while let Some(&(number, steps)) = queue.get(next) {
             next += 1;
             let cell = floor.cell(number);
-            let Some(at) = local(cell, centre) else { continue };
-            let values = &mut patch.values[at * headings as usize..][..headings as usize];
+            let Some(at) = local(cell) else { continue };
+            let values = &mut all[at * headings as usize..][..headings as usize];
             if values[0] != FAR {
                 continue;
             }
@@ -264,5 +292,6 @@ impl Around {
                 }
             }
         }
+        Patch { target: Some(target), centre: spot, values: all }
     }
 }

@@ -19,6 +19,8 @@ mod distances;
 mod ground;
 mod reach;
 mod tasks;
+#[cfg(test)]
+mod twin;
 mod window;
 
 pub use desk::Assignment;
@@ -39,7 +41,7 @@ const ROBOTS: usize = 30;
 /// Paths looked for before such a push is given up.
 const PATHS: u64 = 300;
 /// The same when it must pay for all together.
-const ROBOTS_IN_SUM: usize = 6;
+const ROBOTS_IN_SUM: usize = 12;
 /// A robot's distance, in steps, counts less by this for each step since it got its task.
 const PATIENCE: f64 = 0.5;
 /// The largest weight of a robot.
@@ -375,7 +377,9 @@ fn plan(crew: &mut Crew, scene: Scene<'_>, limits: Limits, rng: &mut Rng) {
         if limits.is_over(crew.work) {
             break;
         }
-        crew.improve(scene, robot, rng);
+        if !crew.is_best(scene, robot) {
+            crew.improve(scene, robot, rng);
+        }
         if !crew.is_best(scene, robot) {
             crew.push(scene, robot, by_rank, rng);
         }

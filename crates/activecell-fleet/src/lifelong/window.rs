@@ -153,10 +153,9 @@ impl Window {
         let bit = (column + self.pad) as usize;
         let (word, shift) = (bit / 64, bit % 64);
         scratch.clear();
-        scratch.extend(rows.map(|y| {
-            let at = plane + y * self.words + word;
-            self.planes[at] >> shift | self.planes[at + 1] << 1 << (63 - shift)
-        }));
+        let rows = self.planes[plane + rows.start * self.words..plane + rows.end * self.words]
+            .chunks_exact(self.words);
+        scratch.extend(rows.map(|row| row[word] >> shift | row[word + 1] << 1 << (63 - shift)));
         scratch
     }
 
