@@ -229,8 +229,9 @@ impl Crew {
         }
         let by_rank = chain.judge == Judge::Rank;
         let first = scene.ranks[self.group.robots[0] as usize];
-        let turning = scene.ground.headings() > 1;
-        let tries = if turning { TRIES } else { TRIES - 1 };
+        // Who must turn first may need some steps to get away; they pay where rank alone decides.
+        let lenient = by_rank && scene.ground.headings() > 1;
+        let tries = if lenient { TRIES } else { TRIES - 1 };
         for turn in 0..tries {
             if self.work >= chain.paths {
                 return false;
@@ -241,8 +242,8 @@ impl Crew {
             }
             let start = self.path(other)[0];
             self.take(scene, other);
-            // It may need some steps to get away, most of all if it must turn first: at later tries its first ones count.
-            let steps = if turning { turn * GRACE } else { 0 };
+            // At later tries its first steps count, too.
+            let steps = if lenient { turn * GRACE } else { 0 };
             let mut grace = [start; GRACE * TRIES];
             let grace = &mut grace[..steps.min(self.length)];
             let old = self.group.paths.len() - self.length;
@@ -270,7 +271,7 @@ impl Crew {
                 self.unsettle(scene, robot);
             }
             self.put_back(scene);
-            if !turning || turn + 1 == tries {
+            if !lenient || turn + 1 == tries {
                 self.fix(scene, other);
                 self.group.stuck.push(other as u32);
             }
