@@ -40,7 +40,13 @@ pub const MAX_WINDOW: usize = 30;
 const ROBOTS: usize = 30;
 /// Paths looked for before such a push is given up.
 const PATHS: u64 = 300;
-/// The same when it must pay for all together.
+/// So many of the first robots may push more, so that a jam dissolves in the end.
+const FIRST: usize = 16;
+/// The robots that one of the first may push.
+const URGENT_ROBOTS: usize = 200;
+/// Paths looked for before such a push is given up.
+const URGENT_PATHS: u64 = 2000;
+/// The most robots in a chain that must pay for all together.
 const ROBOTS_IN_SUM: usize = 12;
 /// A robot's distance, in steps, counts less by this for each step since it got its task.
 const PATIENCE: f64 = 0.5;
@@ -372,6 +378,7 @@ fn plan(crew: &mut Crew, scene: Scene<'_>, limits: Limits, rng: &mut Rng) {
     let mut order: Vec<usize> = (0..robots).collect();
     order.sort_unstable_by_key(|&robot| scene.ranks[robot]);
     let by_rank = Chain { judge: Judge::Rank, robots: ROBOTS, paths: PATHS };
+    let urgent = Chain { robots: URGENT_ROBOTS, paths: URGENT_PATHS, ..by_rank };
     let mut turns = 0;
     for &robot in &order {
         if limits.is_over(crew.work) {
@@ -381,7 +388,7 @@ fn plan(crew: &mut Crew, scene: Scene<'_>, limits: Limits, rng: &mut Rng) {
             crew.improve(scene, robot, rng);
         }
         if !crew.is_best(scene, robot) {
-            crew.push(scene, robot, by_rank, rng);
+            crew.push(scene, robot, if turns < FIRST { urgent } else { by_rank }, rng);
         }
         crew.fix(scene, robot);
         turns += 1;
