@@ -4,6 +4,7 @@ use crate::floor::Floor;
 use activecell::{Error, Floods, TileField, TileOrder};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// Fields of targets, kept once each. A field is known by its slot.
 ///
@@ -25,12 +26,14 @@ pub struct Fields {
     /// The words of each field, by slot.
     made: Vec<Box<[u64]>>,
     slots: BTreeMap<u32, u32>,
+    /// Slots of forgotten fields.
+    vacant: Vec<u32>,
 }
 
 impl Fields {
     /// No field yet.
     pub fn new(floor: &Floor) -> Self {
-        Self { order: floor.order(), made: Vec::new(), slots: BTreeMap::new() }
+        Self { order: floor.order(), made: Vec::new(), slots: BTreeMap::new(), vacant: Vec::new() }
     }
 
     /// The slots of the fields of these targets. Those that are not there yet are made, on `threads` threads; the
@@ -43,9 +46,15 @@ impl Fields {
             floor.map().check_target(floor.cell(target))?;
         }
         let mut wanted = Vec::new();
+        let mut places = Vec::new();
         for &target in targets {
-            let free = (self.made.len() + wanted.len()) as u32;
-            if *self.slots.entry(target).or_insert(free) == free {
+            if let Entry::Vacant(entry) = self.slots.entry(target) {
+                let slot = self.vacant.pop().unwrap_or_else(|| {
+                    self.made.push(Box::default());
+                    self.made.len() as u32 - 1
+                });
+                entry.insert(slot);
+                places.push(slot);
                 wanted.push(target);
             }
         }
@@ -58,8 +67,18 @@ impl Fields {
             };
             parts.into_iter().map(join).collect::<Result<Vec<_>, _>>()
         });
-        self.made.extend(new?.into_iter().flatten());
+        for (slot, field) in places.into_iter().zip(new?.into_iter().flatten()) {
+            self.made[slot as usize] = field;
+        }
         Ok(targets.iter().map(|target| self.slots[target]).collect())
+    }
+
+    /// Forgets the field of a target, if there is one. Its slot will be that of another target.
+    pub fn forget(&mut self, target: u32) {
+        if let Some(slot) = self.slots.remove(&target) {
+            self.made[slot as usize] = Box::default();
+            self.vacant.push(slot);
+        }
     }
 
     /// The field in this slot.

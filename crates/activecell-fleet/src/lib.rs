@@ -24,6 +24,7 @@ mod arbitrate;
 mod fields;
 mod floor;
 mod guide;
+mod lifelong;
 mod passage;
 mod priorities;
 mod refine;
@@ -35,6 +36,9 @@ pub use arbitrate::{Arbiter, Goal};
 pub use fields::Fields;
 pub use floor::{Floor, NONE};
 pub use guide::{Dive, Guide, Problem, dive};
+pub use lifelong::{
+    Assignment, Lifelong, LifelongOptions, MAX_WINDOW, StepReport, deliveries, visits, within_reach,
+};
 pub use passage::{Layout, Passage, Reservations};
 pub use refine::Refiner;
 pub use room::Room;

@@ -155,6 +155,22 @@ pub enum Error {
         /// Targets in it.
         targets: usize,
     },
+    /// A task without a cell to visit.
+    EmptyTask,
+    /// One task of many is at fault.
+    OfTask {
+        /// The task, counted from 0.
+        task: usize,
+        /// What is wrong.
+        error: Box<Error>,
+    },
+    /// No way leads to a cell that a task wants visited.
+    Unreachable {
+        /// A cell where a robot is.
+        from: Cell,
+        /// The cell.
+        to: Cell,
+    },
     /// The cells of a plan are not a whole number of steps.
     PlanSize {
         /// Robots of the plan.
@@ -226,6 +242,11 @@ impl fmt::Display for Error {
                     f,
                     "the part of the floor around {cell} has {robots} robot{s} for {of}; give it a robot for each target"
                 )
+            }
+            Self::EmptyTask => write!(f, "a task without a cell to visit; give it at least one"),
+            Self::OfTask { task, error } => write!(f, "task {task}: {error}"),
+            Self::Unreachable { from, to } => {
+                write!(f, "no way leads from {from}, where a robot is, to {to}; leave out one or the other")
             }
             Self::PlanSize { robots, cells } => write!(
                 f,

@@ -55,8 +55,9 @@ pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
 pub use fleet::{
-    Bodies, Detection, KeepOut, KeepOuts, MemberRecord, Plan, PlanFault, Schedule, Team, check_keep_outs,
-    check_moves, check_plan, check_schedule, detections, schedule, strangers,
+    Bodies, Detection, Event, Journal, JournalFault, KeepOut, KeepOuts, MemberRecord, Moves, News, Plan,
+    PlanFault, Schedule, Task, Team, check_journal, check_keep_outs, check_moves, check_plan, check_schedule,
+    detections, schedule, strangers,
 };
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{

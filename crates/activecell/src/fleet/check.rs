@@ -220,10 +220,17 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
 /// # Ok::<(), activecell::Error>(())
 /// ```
 pub fn check_moves(map: &Map, plan: &Plan) -> Result<(), PlanFault> {
+    check_rows(map, plan.rows())
+}
+
+/// Checks where all robots are at each step, from step 0 on: on free cells of the map, a step apart, never two in a cell,
+/// never two swapping.
+pub(super) fn check_rows<'a>(map: &Map, rows: impl Iterator<Item = &'a [Cell]>) -> Result<(), PlanFault> {
     let mut before = Standing::new(map);
     let mut now = Standing::new(map);
-    for (step, row) in plan.rows().enumerate() {
-        let from = if step == 0 { row } else { plan.row(step - 1) };
+    let mut past: Option<&[Cell]> = None;
+    for (step, row) in rows.enumerate() {
+        let from = past.unwrap_or(row);
         for (robot, &cell) in row.iter().enumerate() {
             check_move(map, step, robot, from[robot], cell)?;
             if let Some(other) = now.enter(cell, robot) {
@@ -239,6 +246,7 @@ pub fn check_moves(map: &Map, plan: &Plan) -> Result<(), PlanFault> {
             before.leave(from);
         }
         std::mem::swap(&mut before, &mut now);
+        past = Some(row);
     }
     Ok(())
 }

@@ -10,6 +10,8 @@
 mod assign;
 mod bodies;
 mod check;
+mod check_journal;
+mod journal;
 mod keep_out;
 mod plan;
 pub mod schedule;
@@ -18,6 +20,8 @@ mod team;
 
 pub use bodies::Bodies;
 pub use check::{PlanFault, check_keep_outs, check_moves, check_plan};
+pub use check_journal::{JournalFault, check_journal};
+pub use journal::{Event, Journal, Moves, News, Task};
 pub use keep_out::{KeepOut, KeepOuts};
 pub use plan::Plan;
 pub use schedule::{Schedule, check_schedule};
