@@ -55,8 +55,8 @@ pub use embedded::{DirectionPlanes, EmbeddedHeader, EmbeddedMap, MoveTable};
 pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
 pub use fleet::{
-    Bodies, Detection, KeepOut, KeepOuts, MemberRecord, Plan, PlanFault, Schedule, Team, check_keep_outs,
-    check_moves, check_plan, check_schedule, detections, schedule, strangers,
+    Bodies, Detection, KeepOut, KeepOuts, MemberRecord, Plan, PlanFault, Schedule, Team, check_bodies,
+    check_keep_outs, check_moves, check_plan, check_schedule, detections, schedule, strangers,
 };
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{

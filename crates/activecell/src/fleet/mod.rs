@@ -17,7 +17,7 @@ mod strangers;
 mod team;
 
 pub use bodies::Bodies;
-pub use check::{PlanFault, check_keep_outs, check_moves, check_plan};
+pub use check::{PlanFault, check_bodies, check_keep_outs, check_moves, check_plan};
 pub use keep_out::{KeepOut, KeepOuts};
 pub use plan::Plan;
 pub use schedule::{Schedule, check_schedule};
