@@ -1,6 +1,6 @@
 //! The options of `activecell fleet` and `activecell check`.
 
-use super::MapArgs;
+use super::{GroupArgs, MapArgs};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -16,6 +16,7 @@ Examples:
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --time-limit 1 --save plan.txt
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --robots 10 --first --lattice hex
   activecell fleet maps/office.yaml --cell 0.5 --random --robots 20 --first --save plan.json
+  activecell fleet maps/warehouse.map --random --robots 6 --sizes 1,0,0,0,0,0 --strangers maps/strangers.json --first
 
 Exit codes: 0 all robots arrive, 3 there is no plan, or none was found within the limits.")]
 pub(crate) struct FleetArgs {
@@ -33,6 +34,8 @@ pub(crate) struct FleetArgs {
     /// Give each target to whoever is best placed: of all ways to share them out, one with the least sum of distances
     #[arg(long)]
     pub(crate) assign: bool,
+    #[command(flatten)]
+    pub(crate) group: GroupArgs,
     /// Seconds to look for better plans [default: 10; none with --step-limit]
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) time_limit: Option<f64>,
@@ -62,7 +65,8 @@ pub(crate) struct FleetArgs {
 /// Check a plan for many robots, whoever made it
 ///
 /// Knows no planner: every step must lead to a neighbouring free cell or nowhere, never two robots in a cell, never two
-/// that swap, and each must get from its start to its target. Tells the first fault with its step, robots and cells.
+/// that swap, and each must get from its start to its target. Sizes, distance and closed cells are those that the plan
+/// states, unless an option says otherwise. Tells the first fault with its step, robots and cells.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example:
@@ -78,6 +82,8 @@ pub(crate) struct CheckArgs {
     /// Starts and targets from a MovingAI scenario, a row for each robot [default: those that the plan states]
     #[arg(long, value_name = "FILE.scen")]
     pub(crate) scen: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) group: GroupArgs,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
