@@ -164,8 +164,11 @@ impl<'a> Floor<'a> {
     }
 }
 
+/// The cells, x and y, that each robot passes.
+type Paths<'a> = &'a [&'a [(i32, i32)]];
+
 /// A plan of paths, each a cell a step; who has arrived rests.
-fn plan(paths: &[&[(i32, i32)]]) -> Plan {
+fn plan(paths: Paths<'_>) -> Plan {
     let steps = paths.iter().map(|path| path.len()).max().unwrap();
     let cell = |step: usize, path: &&[(i32, i32)]| {
         let (x, y) = path[step.min(path.len() - 1)];
@@ -187,7 +190,7 @@ fn radii(lattice: Lattice) -> &'static [f64] {
 #[test]
 fn drawn_situations_hold_whatever_anybody_does() {
     use Lattice::{Hex, Square};
-    let situations: [(Lattice, &[&[(i32, i32)]]); 11] = [
+    let situations: [(Lattice, Paths<'_>); 11] = [
         // One follows another straight on, and round a corner.
         (Square, &[&[(1, 0), (2, 0), (3, 0)], &[(0, 0), (1, 0), (2, 0)]]),
         (Square, &[&[(1, 1), (1, 0), (0, 0)], &[(0, 1), (1, 1), (1, 0)]]),
