@@ -113,7 +113,8 @@ pub fn read(bytes: &[u8]) -> Result<Strangers, Error> {
     let tracks = tracks.collect::<Result<Vec<Track>, Error>>()?;
     let last_s = tracks.iter().filter_map(Track::seen_s).reduce(f64::max);
     let now_s = file.now_s.or(last_s).unwrap_or(0.0);
-    if !(now_s.abs() <= 1e9) || last_s.is_some_and(|last_s| now_s < last_s) {
+    let is_possible = now_s.abs() <= 1e9 && last_s.is_none_or(|last_s| last_s <= now_s);
+    if !is_possible {
         let reason =
             format!("now_s is {now_s}; it must be no earlier than the last position seen, up to 10⁹");
         return Err(Error::file(reason));
