@@ -1,6 +1,6 @@
 //! The options of `activecell fleet` and `activecell check`.
 
-use super::MapArgs;
+use super::{LifelongArgs, MapArgs};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -10,19 +10,23 @@ use std::path::PathBuf;
 /// (the steps of each robot until it rests at its target for good) and the makespan (the steps until the last one
 /// rests). The first plan is there soon; until the limit it only gets better. Every plan is checked by rules that know no
 /// planner.
+///
+/// With --tasks or --generate, or a problem of the League of Robot Runners (.json) in place of MAP, robots get task after
+/// task without end, and each step is planned in bounded time; prints how many tasks are done a step.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --time-limit 1 --save plan.txt
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --robots 10 --first --lattice hex
   activecell fleet maps/office.yaml --cell 0.5 --random --robots 20 --first --save plan.json
+  activecell fleet maps/warehouse.map --generate deliveries -n 40 --motion turning --steps 50 --step-time 5
 
 Exit codes: 0 all robots arrive, 3 there is no plan, or none was found within the limits.")]
 pub(crate) struct FleetArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
     /// Starts and targets: the rows of a MovingAI scenario
-    #[arg(long, value_name = "FILE.scen", required_unless_present = "random")]
+    #[arg(long, value_name = "FILE.scen")]
     pub(crate) scen: Option<PathBuf>,
     /// Starts and targets by chance, on the floor's largest region
     #[arg(long, conflicts_with = "scen", requires = "robots")]
@@ -57,6 +61,8 @@ pub(crate) struct FleetArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) lifelong: LifelongArgs,
 }
 
 /// Check a plan for many robots, whoever made it

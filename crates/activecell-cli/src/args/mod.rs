@@ -4,6 +4,7 @@ mod calibrate;
 mod delays;
 mod fleet;
 mod ground;
+mod lifelong;
 mod place;
 mod simulate;
 
@@ -13,6 +14,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 pub(crate) use delays::DelayArgs;
 pub(crate) use fleet::{CheckArgs, FleetArgs};
 pub(crate) use ground::GroundArgs;
+pub(crate) use lifelong::{AssignmentArg, GenerateArg, LifelongArgs, MotionArg};
 pub(crate) use place::{Place, heading};
 pub(crate) use simulate::{ModeArg, SimulateArgs};
 use std::path::PathBuf;

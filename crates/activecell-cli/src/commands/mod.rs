@@ -8,6 +8,7 @@ mod convert;
 mod embed;
 mod fleet;
 mod info;
+mod lifelong;
 mod load;
 mod outputs;
 mod relief;
