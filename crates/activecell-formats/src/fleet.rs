@@ -1,4 +1,4 @@
-//! What `fleet --json` and `check --json` print. The names are a contract: keys are added, never changed.
+//! What `fleet --json` and `check --json` print (of runs without end: [`lifelong`](crate::lifelong)). The names are a contract: keys are added, never changed.
 
 use activecell::{Cell, Plan, PlanFault};
 use serde::Serialize;

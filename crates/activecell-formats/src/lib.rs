@@ -42,6 +42,7 @@ pub mod elevation;
 mod error;
 pub mod files;
 pub mod fleet;
+pub mod lifelong;
 mod lines;
 pub mod lorr;
 pub mod movingai;

@@ -1,6 +1,6 @@
 //! The options of `activecell fleet` and `activecell check`.
 
-use super::{GroupArgs, MapArgs};
+use super::{GroupArgs, LifelongArgs, MapArgs};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -10,6 +10,9 @@ use std::path::PathBuf;
 /// (the steps of each robot until it rests at its target for good) and the makespan (the steps until the last one
 /// rests). The first plan is there soon; until the limit it only gets better. Every plan is checked by rules that know no
 /// planner.
+///
+/// With --tasks or --generate, or a problem of the League of Robot Runners (.json) in place of MAP, robots get task after
+/// task without end, and each step is planned in bounded time; prints how many tasks are done a step.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -17,13 +20,14 @@ Examples:
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --robots 10 --first --lattice hex
   activecell fleet maps/office.yaml --cell 0.5 --random --robots 20 --first --save plan.json
   activecell fleet maps/warehouse.map --random --robots 6 --sizes 1,0,0,0,0,0 --strangers maps/strangers.json --first
+  activecell fleet maps/warehouse.map --generate deliveries -n 40 --motion turning --steps 50 --step-time 5
 
 Exit codes: 0 all robots arrive, 3 there is no plan, or none was found within the limits.")]
 pub(crate) struct FleetArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
     /// Starts and targets: the rows of a MovingAI scenario
-    #[arg(long, value_name = "FILE.scen", required_unless_present = "random")]
+    #[arg(long, value_name = "FILE.scen")]
     pub(crate) scen: Option<PathBuf>,
     /// Starts and targets by chance, on the floor's largest region
     #[arg(long, conflicts_with = "scen", requires = "robots")]
@@ -36,15 +40,8 @@ pub(crate) struct FleetArgs {
     pub(crate) assign: bool,
     #[command(flatten)]
     pub(crate) group: GroupArgs,
-    /// Seconds to look for better plans [default: 10; none with --step-limit]
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
-    pub(crate) time_limit: Option<f64>,
-    /// Steps of the search; the plan is then the same on every machine
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
-    pub(crate) step_limit: Option<u64>,
-    /// Stop at the first plan
-    #[arg(long)]
-    pub(crate) first: bool,
+    #[command(flatten)]
+    pub(crate) limits: LimitArgs,
     /// Chance
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
@@ -60,6 +57,22 @@ pub(crate) struct FleetArgs {
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) lifelong: LifelongArgs,
+}
+
+/// When to stop looking for better plans.
+#[derive(Debug, Args)]
+pub(crate) struct LimitArgs {
+    /// Seconds to look for better plans [default: 10; none with --step-limit]
+    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
+    pub(crate) time_limit: Option<f64>,
+    /// Steps of the search; the plan is then the same on every machine
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) step_limit: Option<u64>,
+    /// Stop at the first plan
+    #[arg(long)]
+    pub(crate) first: bool,
 }
 
 /// Check a plan for many robots, whoever made it

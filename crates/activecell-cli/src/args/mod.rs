@@ -5,6 +5,7 @@ mod delays;
 mod fleet;
 mod ground;
 mod group;
+mod lifelong;
 mod place;
 mod simulate;
 
@@ -15,6 +16,7 @@ pub(crate) use delays::DelayArgs;
 pub(crate) use fleet::{CheckArgs, FleetArgs};
 pub(crate) use ground::GroundArgs;
 pub(crate) use group::{GroupArgs, SizesArg};
+pub(crate) use lifelong::{AssignmentArg, GenerateArg, LifelongArgs, MotionArg};
 pub(crate) use place::{Place, heading};
 pub(crate) use simulate::{ModeArg, SimulateArgs};
 use std::path::PathBuf;

@@ -2,7 +2,7 @@
 
 use super::group::{self, Group};
 use super::outputs::{self, Kind};
-use super::{Done, counted, load, team};
+use super::{Done, counted, lifelong, load, team};
 use crate::args::{FleetArgs, SizesArg, WrongArgument};
 use crate::terminal::Terminal;
 use activecell::{Bodies, KeepOuts, Map, Team, check_keep_outs, check_plan};
@@ -20,6 +20,9 @@ use std::time::{Duration, Instant};
 const TIME_LIMIT_S: f64 = 10.0;
 
 pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done> {
+    if lifelong::is_asked(args)? {
+        return lifelong::run(args, terminal);
+    }
     let (formats, pictures) = (formats(args)?, outputs::pictures(&args.picture)?);
     let map = load::map(&args.map, None, terminal)?.map;
     let team = team(args, &map, terminal)?;
@@ -75,21 +78,25 @@ fn team(args: &FleetArgs, map: &Map, terminal: &Terminal) -> anyhow::Result<Team
 }
 
 fn options(args: &FleetArgs) -> Options {
-    let time_s = args.time_limit.or(args.step_limit.is_none().then_some(TIME_LIMIT_S));
+    let time_s = args.limits.time_limit.or(args.limits.step_limit.is_none().then_some(TIME_LIMIT_S));
     Options {
         seed: args.seed,
-        threads: args.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from),
+        threads: threads(args),
         limits: Limits {
             time: time_s.map(Duration::from_secs_f64),
-            steps: args.step_limit,
-            first: args.first,
+            steps: args.limits.step_limit,
+            first: args.limits.first,
             ..Limits::default()
         },
     }
 }
 
+pub(super) fn threads(args: &FleetArgs) -> usize {
+    args.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from)
+}
+
 /// The formats to save in; refuses what cannot be written before anything is planned.
-fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
+pub(super) fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
     let written = || args.save.iter().chain(&args.picture);
     outputs::once_each(written())?;
     let mut sources = files::sources(&args.map.path);
@@ -97,6 +104,7 @@ fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
     if let Some(SizesArg::File(path)) = &args.group.sizes {
         sources.push(path.clone());
     }
+    sources.extend(args.lifelong.tasks.iter().chain(&args.lifelong.agents).cloned());
     let sources: Vec<_> = sources.iter().filter_map(|path| path.canonicalize().ok()).collect();
     if let Some(path) = written().find(|path| path.canonicalize().is_ok_and(|it| sources.contains(&it))) {
         let path = path.display();
@@ -108,7 +116,11 @@ fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
 }
 
 /// Draws the plan into every picture that was asked for.
-fn draw(pictures: &[(&Path, Kind)], picture: &FleetPicture<'_>, terminal: &Terminal) -> anyhow::Result<()> {
+pub(super) fn draw(
+    pictures: &[(&Path, Kind)],
+    picture: &FleetPicture<'_>,
+    terminal: &Terminal,
+) -> anyhow::Result<()> {
     for &(path, kind) in pictures {
         let _working = terminal.working(format!("drawing {}", path.display()));
         let bytes = match kind {
@@ -201,7 +213,7 @@ fn report(args: &FleetArgs, map: &Map, team: &Team, outcome: &Outcome, elapsed_m
 }
 
 /// The most memory that this process has had, where the system tells.
-fn peak_bytes() -> Option<u64> {
+pub(super) fn peak_bytes() -> Option<u64> {
     let status = std::fs::read_to_string(Path::new("/proc/self/status")).ok()?;
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
     Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024)
@@ -248,6 +260,6 @@ fn ending(report: &FleetReport) -> &'static str {
     }
 }
 
-fn duration(ms: f64) -> String {
+pub(super) fn duration(ms: f64) -> String {
     if ms < 1e3 { format!("{ms:.1} ms") } else { format!("{:.1} s", ms / 1e3) }
 }

@@ -7,6 +7,7 @@ use activecell_formats::{files, sizes, strangers};
 use anyhow::Context;
 
 /// The options as they were given, with the files read.
+#[derive(Default)]
 pub(super) struct Group {
     sizes: Option<Vec<u32>>,
     distance: Option<u32>,

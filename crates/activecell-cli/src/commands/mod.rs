@@ -9,6 +9,7 @@ mod embed;
 mod fleet;
 mod group;
 mod info;
+mod lifelong;
 mod load;
 mod outputs;
 mod relief;
