@@ -26,8 +26,17 @@ fn stage() -> tempfile::TempDir {
     write("shared.scen", &(rows + &task([6, 3], [5, 3])));
     write("pipe.scen", "0 pipe.txt 4 1 0 0 3 0 3\n0 pipe.txt 4 1 3 0 0 0 3\n");
     write("walls.scen", "0 walls.txt 5 1 0 0 4 0 3\n");
+    write("hall.txt", &"............\n".repeat(7));
+    let hall = [[1, 1, 10, 1], [10, 5, 1, 5], [10, 2, 4, 3]];
+    write("hall.scen", &hall.map(|[a, b, c, d]| format!("0 hall.txt 12 7 {a} {b} {c} {d} 9\n")).concat());
+    write("strangers.json", STRANGERS);
     folder
 }
+
+/// A closed cell, and an object that comes down a column.
+const STRANGERS: &str = r#"{"activecell": "strangers", "version": 1, "keep_outs": [{"cell": [5, 1], "from": 2, "to": 9}],
+    "objects": [{"radius_m": 0.3, "max_speed_mps": 0.5, "max_accel_mps2": 0.5, "seen_within_m": 0.05,
+    "seen": [[0, 7.5, 6.5], [1, 7.5, 6]]}]}"#;
 
 #[test]
 fn plans_of_every_format_pass_the_checker() {
@@ -336,5 +345,170 @@ fn targets_can_be_given_to_whoever_is_best_placed() {
             ["", "--assign --save a.json"].map(|more| json(path, &format!("{task} {more}"), &[0]));
         assert!(assigned["lower_bound"].as_u64() < given["lower_bound"].as_u64(), "{assigned}");
         assert_eq!(json(path, "check rooms.map a.json --json", &[0])["robots"], json!(4));
+    }
+}
+
+#[test]
+fn bodies_keep_their_distance_and_the_plan_says_it() {
+    let folder = stage();
+    let path = folder.path();
+    fs::write(path.join("sizes.txt"), "# the first is large\n1\n0\n0\n").unwrap();
+    for lattice in ["square", "hex"] {
+        let floor = format!("hall.txt --lattice {lattice}");
+        let plan = |arguments: &str| {
+            json(path, &format!("fleet {floor} --step-limit 2000 --json {arguments}"), &[0])
+        };
+        let asked = "--sizes 1,0,0 --distance 2";
+        let made = plan(&format!("--scen hall.scen {asked} --save a.json --save a.txt"));
+        let by_file = plan("--scen hall.scen --sizes sizes.txt --distance 2 --save b.json");
+        assert_eq!(made["sum_of_costs"], by_file["sum_of_costs"]);
+        let check = |arguments: &str| json(path, &format!("check hall.txt {arguments} --json"), &[0]);
+        for judged in [
+            check("a.json"),
+            check("b.json --scen hall.scen"),
+            check(&format!("a.txt {asked}")),
+            check(&format!("a.txt --scen hall.scen {asked}")),
+        ] {
+            assert_eq!((&judged["largest_size"], &judged["distance"]), (&json!(1), &json!(2)));
+            assert_eq!(judged["sum_of_costs"], made["sum_of_costs"]);
+        }
+        // Text cannot say it, and an option says otherwise.
+        assert_eq!(check("a.txt")["largest_size"], json!(0));
+        assert_eq!(check("a.json --sizes 0 --distance 1")["distance"], json!(1));
+        let (code, _, stderr) = run(path, "check hall.txt a.json --distance 12");
+        assert!(code == 1 && stderr.contains("are too close"), "{stderr}");
+        let random = plan(&format!("--random -n 3 {asked} --save r.json"));
+        assert_eq!(check("r.json")["sum_of_costs"], random["sum_of_costs"]);
+        // All of one size may share their targets.
+        let all = "--scen hall.scen --sizes 1 --assign --save s.json";
+        assert!(
+            plan(all)["lower_bound"].as_u64() <= plan("--scen hall.scen --sizes 1")["lower_bound"].as_u64()
+        );
+        assert_eq!(check("s.json")["largest_size"], json!(1));
+    }
+}
+
+#[test]
+fn plans_keep_out_of_what_strangers_close() {
+    let folder = stage();
+    let path = folder.path();
+    for lattice in ["square", "hex"] {
+        let task = format!("fleet hall.txt --lattice {lattice} --scen hall.scen --step-limit 2000 --json");
+        json(path, &format!("{task} --strangers strangers.json --save past.json"), &[0]);
+        let judged = json(path, "check hall.txt past.json --json", &[0]);
+        assert!(judged["keep_outs"].as_u64() > Some(3), "{judged}");
+        json(path, "check hall.txt past.json --strangers strangers.json --json", &[0]);
+        // Nobody told this plan.
+        json(path, &format!("{task} --save free.json"), &[0]);
+        let (code, stdout, stderr) = run(path, "check hall.txt free.json --strangers strangers.json --json");
+        assert!(code == 1 && stderr.contains("which is closed then"), "{stderr}");
+        let report: Value = serde_json::from_str(&stdout).unwrap();
+        assert_eq!((&report["sound"], &report["fault"]["kind"]), (&json!(false), &json!("closed")));
+    }
+}
+
+/// A large robot and a small one that meet, and a cell that is closed until the large one covers it.
+const BODIES: &str = r#"{"activecell":"plan","version":1,"lattice":"square","sizes":[1,0],"keep_outs":[{"cell":[4,3],"from":0,"to":1}],
+    "steps":3,"robots":[{"start":[1,3],"moves":"E2"},{"start":[6,3],"moves":"W"}]}"#;
+
+#[test]
+fn tampered_plans_of_bodies_are_refused_with_step_robots_and_cells() {
+    let folder = stage();
+    let path = folder.path();
+    fs::write(path.join("right.json"), BODIES).unwrap();
+    let (code, stdout, _) = run(path, "check hall.txt right.json");
+    assert!(
+        code == 0
+            && stdout.contains("of radius 1 at the most, at least 1 cell apart\nclosed         1 cell,")
+    );
+    let far = r#""version":1,"distance":3"#;
+    for (from, to, words, expected) in [
+        (
+            r#""W""#,
+            r#""W2""#,
+            "step 2: robots 0 and 1 at (3,3) and (4,3) are too close; their centres must be at least 2 cells apart",
+            json!(["too_close", 2, [0, 1], [[3, 3], [4, 3]]]),
+        ),
+        (
+            r#""version":1"#,
+            far,
+            "step 1: robots 0 and 1 at (2,3) and (5,3) are too close; their centres must be at least 4 cells apart",
+            json!(["too_close", 1, [0, 1], [[2, 3], [5, 3]]]),
+        ),
+        (
+            r#""E2""#,
+            r#""N3""#,
+            "step 3: robot 0 at (1,0) covers (0,-1), an obstacle or outside the map",
+            json!(["no_room", 3, [0], [[1, 0], [0, -1]]]),
+        ),
+        (
+            r#""to":1"#,
+            r#""to":2"#,
+            "step 2: robot 0 at (3,3) is in (4,3), which is closed then",
+            json!(["closed", 2, [0], [[3, 3], [4, 3]]]),
+        ),
+        (
+            r#""cell":[4,3],"from":0,"to":1"#,
+            r#""cell":[5,3],"from":90,"to":90"#,
+            "step 90: robot 1 at (5,3) is in (5,3), which is closed then",
+            json!(["closed", 90, [1], [[5, 3], [5, 3]]]),
+        ),
+    ] {
+        assert!(BODIES.contains(from), "{from}");
+        fs::write(path.join("plan.json"), BODIES.replacen(from, to, 1)).unwrap();
+        let (code, stdout, stderr) = run(path, "check hall.txt plan.json --json");
+        assert_eq!((code, stderr.as_str()), (1, format!("activecell: plan.json: {words}\n").as_str()));
+        let report: Value = serde_json::from_str(&stdout).unwrap();
+        let fault = &report["fault"];
+        assert_eq!(json!([fault["kind"], fault["step"], fault["robots"], fault["cells"]]), expected);
+        assert_eq!((&report["sound"], &fault["message"]), (&json!(false), &json!(words)));
+    }
+}
+
+#[test]
+fn bodies_and_strangers_that_cannot_be_are_told_in_one_line() {
+    let folder = stage();
+    let path = folder.path();
+    fs::write(path.join("plan.json"), BODIES).unwrap();
+    fs::write(path.join("few.json"), BODIES.replace("[1,0]", "[1]")).unwrap();
+    fs::write(path.join("late.json"), BODIES.replace("\"to\":1", "\"to\":99999")).unwrap();
+    fs::write(path.join("off.json"), STRANGERS.replace("[5, 1]", "[99, 1]")).unwrap();
+    fs::write(path.join("odd.json"), STRANGERS.replace("keep_outs", "keepouts")).unwrap();
+    fs::write(path.join("words.txt"), "0\none\n").unwrap();
+    let fleet = |more: &str| format!("fleet hall.txt --scen hall.scen {more}");
+    for (arguments, code, expected) in [
+        (fleet("--distance 0"), 2, ""),
+        (fleet("--sizes 1,0"), 2, "--sizes: 2 radii for 3 robots; give one for each, or one for all"),
+        (fleet("--sizes ,"), 2, "--sizes: no radius is given"),
+        (fleet("--sizes 0,0,99999999999"), 2, "--sizes: line 1: `99999999999` is no radius"),
+        (fleet("--sizes 0,0,99999"), 1, "a robot's radius in cells is 99999; it must be from 0 to 16384"),
+        (fleet("--sizes none.txt"), 1, "none.txt: there is no such file"),
+        (fleet("--sizes words.txt"), 1, "words.txt line 2: `one` is no radius"),
+        (fleet("--sizes 0,2,0"), 1, "hall.scen line 2: robot 1: a body of radius 2 at (10,5) covers"),
+        (fleet("--distance 4"), 1, "hall.scen line 3: robots 1 and 2 at (10,5) and (10,2) are too close"),
+        (fleet("--sizes 1,0,0 --assign"), 2, "--assign: the robots have different sizes"),
+        (fleet("--strangers off.json"), 1, "off.json: cell (99,1) is outside the map"),
+        (
+            fleet("--strangers odd.json"),
+            1,
+            "odd.json line 1, column 52: not a file of strangers: unknown field",
+        ),
+        (fleet("--strangers plan.json"), 1, "plan.json: activecell is `plan`, not `strangers`"),
+        (fleet("--strangers strangers.json --save strangers.json"), 2, "the task is read from this file"),
+        (
+            "fleet hall.txt --random -n 9 --sizes 1 --distance 4".to_owned(),
+            2,
+            "--robots 9: of these sizes and",
+        ),
+        ("fleet hall.txt --random -n 99999999999".to_owned(), 2, "the map has 84 cells; take fewer"),
+        ("check hall.txt few.json".to_owned(), 1, "few.json: `sizes` has 1 radii for 2 robots"),
+        ("check hall.txt late.json".to_owned(), 1, "late.json: the last step of a closed cell is 99999"),
+        ("check hall.txt plan.json --sizes 0,0,0".to_owned(), 2, "--sizes: 3 radii for 2 robots"),
+        ("simulate plan.json --map hall.txt".to_owned(), 1, "plan.json: some robots are larger than a cell"),
+    ] {
+        let (found, stdout, stderr) = run(path, &arguments);
+        assert_eq!((found, stdout.as_str()), (code, ""), "{arguments}: {stderr}");
+        assert!(stderr.contains(expected), "{arguments}: {stderr}");
+        assert!(expected.is_empty() || stderr.lines().count() == 1, "{stderr}");
     }
 }

@@ -202,6 +202,7 @@ fn bad_input_is_told_in_one_line() {
         (rooms("--generate visits -n 99"), 2, "--robots 99: "),
         (rooms("--generate visits -n 0"), 2, "there are no robots"),
         (rooms("--generate visits -n 2 --first"), 2, "--first is for a plan with an end"),
+        (rooms("--generate visits -n 2 --distance 2"), 2, "--distance is for a plan with an end"),
         (rooms("--generate visits --random -n 2"), 2, "--random is for a plan with an end"),
         (rooms("--generate visits -n 2 --lattice hex --save run.json"), 2, "squares only"),
         (rooms("--random -n 2"), 2, "--steps is for runs with tasks"),

@@ -395,7 +395,8 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
         drop(plan);
         let clock = self.clock;
         let late = || limits.time.is_some_and(|time| clock.elapsed() >= time);
-        let mut idle = 0;
+        // The cost of the best plan that the search knows of, and the rounds that brought nothing.
+        let (mut known, mut idle) = (u64::MAX, 0);
         let ending = loop {
             if best == self.search.lower_bound() {
                 break Ending::Exhausted;
@@ -411,6 +412,10 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
             }
             let full = self.search.bytes() > limits.bytes;
             if !full && (starts.len() <= FEW || idle >= IDLE) {
+                if refiner.sum_of_costs() < known {
+                    known = refiner.sum_of_costs();
+                    self.search.insert(&refiner.plan());
+                }
                 let (better, exhausted) = self.search_beside();
                 if let Some(plan) = better.filter(|plan| plan.sum_of_costs() < refiner.sum_of_costs()) {
                     refiner.replace(&plan);

@@ -49,6 +49,12 @@ pub struct CheckReport {
     pub makespan: usize,
     /// Whether the file or a scenario said where the robots should end.
     pub targets_known: bool,
+    /// The radius of the largest robot, in cells.
+    pub largest_size: u32,
+    /// The least distance between robots, in cells.
+    pub distance: u32,
+    /// How many cells were closed, each counted once for every time.
+    pub keep_outs: usize,
     /// What is wrong first; null if nothing is.
     pub fault: Option<FaultReport>,
     /// Where the file states something else than what was found.
@@ -91,6 +97,9 @@ impl CheckReport {
             sum_of_costs,
             makespan,
             targets_known: true,
+            largest_size: 0,
+            distance: 1,
+            keep_outs: 0,
             fault: fault.map(FaultReport::from),
             disagreements: differs.collect(),
         }
@@ -117,32 +126,20 @@ pub struct FaultReport {
 
 impl From<PlanFault> for FaultReport {
     fn from(fault: PlanFault) -> Self {
-        let (kind, step, robots, cells): (_, _, Vec<usize>, Vec<Cell>) = match fault {
-            PlanFault::Robots { .. } => ("robots", None, vec![], vec![]),
-            PlanFault::WrongStart { robot, cell, start } => {
-                ("wrong_start", Some(0), vec![robot], vec![cell, start])
-            }
-            PlanFault::Outside { step, robot, cell } => ("outside", Some(step), vec![robot], vec![cell]),
-            PlanFault::Blocked { step, robot, cell } => ("blocked", Some(step), vec![robot], vec![cell]),
-            PlanFault::Jump { step, robot, from, to } => ("jump", Some(step), vec![robot], vec![from, to]),
-            PlanFault::Collision { step, robots, cell } => {
-                ("collision", Some(step), robots.into(), vec![cell])
-            }
-            PlanFault::Swap { step, robots, cells } => ("swap", Some(step), robots.into(), cells.into()),
-            PlanFault::NoRoom { step, robot, at, covers } => {
-                ("no_room", Some(step), vec![robot], vec![at, covers])
-            }
-            PlanFault::TooClose { step, robots, cells, .. } => {
-                ("too_close", Some(step), robots.into(), cells.into())
-            }
-            PlanFault::Closed { step, robot, at, closed } => {
-                ("closed", Some(step), vec![robot], vec![at, closed])
-            }
-            PlanFault::NotArrived { robot, cell, target } => {
-                ("not_arrived", None, vec![robot], vec![cell, target])
-            }
+        let (kind, robots, cells): (_, Vec<usize>, Vec<Cell>) = match fault {
+            PlanFault::Robots { .. } => ("robots", vec![], vec![]),
+            PlanFault::WrongStart { robot, cell, start } => ("wrong_start", vec![robot], vec![cell, start]),
+            PlanFault::Outside { robot, cell, .. } => ("outside", vec![robot], vec![cell]),
+            PlanFault::Blocked { robot, cell, .. } => ("blocked", vec![robot], vec![cell]),
+            PlanFault::Jump { robot, from, to, .. } => ("jump", vec![robot], vec![from, to]),
+            PlanFault::Collision { robots, cell, .. } => ("collision", robots.into(), vec![cell]),
+            PlanFault::Swap { robots, cells, .. } => ("swap", robots.into(), cells.into()),
+            PlanFault::NoRoom { robot, at, covers, .. } => ("no_room", vec![robot], vec![at, covers]),
+            PlanFault::TooClose { robots, cells, .. } => ("too_close", robots.into(), cells.into()),
+            PlanFault::Closed { robot, at, closed, .. } => ("closed", vec![robot], vec![at, closed]),
+            PlanFault::NotArrived { robot, cell, target } => ("not_arrived", vec![robot], vec![cell, target]),
         };
         let cells = cells.into_iter().map(|cell| [cell.x, cell.y]).collect();
-        Self { kind, step, robots, cells, message: fault.to_string() }
+        Self { kind, step: fault.step(), robots, cells, message: fault.to_string() }
     }
 }

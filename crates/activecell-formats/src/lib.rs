@@ -14,6 +14,8 @@
 //! | [`plan`] | plans of groups: the text that MAPF tools share, JSON, paths |
 //! | [`fleet`] | reports on groups and their plans: JSON |
 //! | [`lorr`] | lifelong tasks of the League of Robot Runners: JSON, lists, CSV |
+//! | [`sizes`] | sizes of a group's robots: text |
+//! | [`strangers`] | what a group keeps out of: JSON |
 //! | [`schedule`] | schedules of plans, and what their execution came to: JSON |
 //! | [`trace`] | what simulated robots did: JSON |
 //! | [`files`] | the disk: which format a path has, reading with limits, writing as a whole |
@@ -51,6 +53,8 @@ pub mod robot;
 pub mod ros;
 pub mod run;
 pub mod schedule;
+pub mod sizes;
+pub mod strangers;
 pub mod trace;
 
 pub use error::{Error, Place};

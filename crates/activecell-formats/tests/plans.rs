@@ -1,7 +1,7 @@
 //! Plan files: what was written is read again, what other tools write is read, and what is wrong is told with its place.
 #![expect(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
-use activecell::{Cell, Lattice, Map, Plan};
+use activecell::{Bodies, Cell, KeepOut, Lattice, Map, Plan};
 use activecell_formats::plan::{MAX_PLAN_CELLS, PlanFile, PlanFormat, Stated, read_plan};
 use proptest::prelude::*;
 
@@ -62,9 +62,19 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 1000, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn what_was_written_is_read_again((lattice, plan) in plans(), stated in stated(), targets in any::<bool>()) {
+    fn what_was_written_is_read_again(
+        (lattice, plan) in plans(),
+        stated in stated(),
+        targets in any::<bool>(),
+        (sizes, distance) in (prop::option::of(0..4_u32), 1..4_u32),
+        closed in prop::collection::vec((-9..9, -9..9, 0..9_u32, 0..9_u32), 0..4),
+    ) {
         let sums = (Some(plan.sum_of_costs()), Some(plan.makespan() as u64));
+        let radii = sizes.map(|size| (0..plan.robots() as u32).map(|robot| robot % (size + 1)).collect());
         let mut file = PlanFile::new(plan);
+        file.bodies = Bodies::new(radii.unwrap_or_default(), distance).unwrap();
+        let keep_out = |(x, y, from_step, to_step)| KeepOut { cell: at(x, y), from_step, to_step };
+        file.keep_outs = closed.into_iter().map(keep_out).collect();
         file.lattice = Some(lattice);
         file.stated = Stated { sum_of_costs: sums.0, makespan: sums.1, ..stated };
         // Elsewhere than where they end.

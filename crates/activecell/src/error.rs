@@ -223,36 +223,6 @@ impl fmt::Display for Error {
             Self::BadEmbedded { offset, reason } => {
                 write!(f, "embedded map, byte {offset}: {reason}; make the file anew")
             }
-            Self::TeamSize { starts, targets, free } => write!(
-                f,
-                "a team of {starts} starts and {targets} targets on {free} free cells; give each robot one start and one target, and at most a robot a free cell"
-            ),
-            Self::OfRobot { robot, error } => write!(f, "robot {robot}: {error}"),
-            Self::SharedStart { robots: [a, b], cell } => {
-                write!(f, "robots {a} and {b} have the same start {cell}; give every robot its own")
-            }
-            Self::SharedTarget { robots: [a, b], cell } => {
-                write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
-            }
-            Self::NoRoom { .. } | Self::TooClose { .. } => bodies(f, self),
-            Self::TooFewRobots { cell, robots, targets } => {
-                let s = if *robots == 1 { "" } else { "s" };
-                let of = if *targets == 1 { "1 target" } else { &format!("{targets} targets") };
-                write!(
-                    f,
-                    "the part of the floor around {cell} has {robots} robot{s} for {of}; give it a robot for each target"
-                )
-            }
-            Self::EmptyTask => write!(f, "a task without a cell to visit; give it at least one"),
-            Self::OfTask { task, error } => write!(f, "task {task}: {error}"),
-            Self::Unreachable { from, to } => {
-                write!(f, "no way leads from {from}, where a robot is, to {to}; leave out one or the other")
-            }
-            Self::PlanSize { robots, cells } => write!(
-                f,
-                "a plan of {cells} cells for {robots} robots; give a cell for every robot at every step, the start included"
-            ),
-            Self::BadPlan { reason } => write!(f, "the plan breaks the rules: {reason}"),
             // Not with hundreds of digits.
             Self::BadValue { name, value, allowed }
                 if (1e-9..1e16).contains(&value.abs()) || *value == 0.0 =>
@@ -260,13 +230,43 @@ impl fmt::Display for Error {
                 write!(f, "{name} is {value}; it must be {allowed}")
             }
             Self::BadValue { name, value, allowed } => write!(f, "{name} is {value:e}; it must be {allowed}"),
+            _ => group(f, self),
         }
     }
 }
 
-/// What is wrong with the bodies of a team.
-fn bodies(f: &mut fmt::Formatter<'_>, error: &Error) -> fmt::Result {
+/// What is wrong with a group.
+fn group(f: &mut fmt::Formatter<'_>, error: &Error) -> fmt::Result {
     match error {
+        Error::TeamSize { starts, targets, free } => write!(
+            f,
+            "a team of {starts} starts and {targets} targets on {free} free cells; give each robot one start and one target, and at most a robot a free cell"
+        ),
+        Error::OfRobot { robot, error } => write!(f, "robot {robot}: {error}"),
+        Error::SharedStart { robots: [a, b], cell } => {
+            write!(f, "robots {a} and {b} have the same start {cell}; give every robot its own")
+        }
+        Error::SharedTarget { robots: [a, b], cell } => {
+            write!(f, "robots {a} and {b} have the same target {cell}; give every robot its own")
+        }
+        Error::TooFewRobots { cell, robots, targets } => {
+            let s = if *robots == 1 { "" } else { "s" };
+            let of = if *targets == 1 { "1 target" } else { &format!("{targets} targets") };
+            write!(
+                f,
+                "the part of the floor around {cell} has {robots} robot{s} for {of}; give it a robot for each target"
+            )
+        }
+        Error::EmptyTask => write!(f, "a task without a cell to visit; give it at least one"),
+        Error::OfTask { task, error } => write!(f, "task {task}: {error}"),
+        Error::Unreachable { from, to } => {
+            write!(f, "no way leads from {from}, where a robot is, to {to}; leave out one or the other")
+        }
+        Error::PlanSize { robots, cells } => write!(
+            f,
+            "a plan of {cells} cells for {robots} robots; give a cell for every robot at every step, the start included"
+        ),
+        Error::BadPlan { reason } => write!(f, "the plan breaks the rules: {reason}"),
         Error::NoRoom { at, radius, covers } => write!(
             f,
             "a body of radius {radius} at {at} covers {covers}, an obstacle or outside the map; choose a cell with more room"

@@ -56,8 +56,8 @@ pub use error::Error;
 pub use error_budget::{Certificate, Fix, Fixes, Method, REGION_95, Region, Trust, TrustedRoute};
 pub use fleet::{
     Bodies, Detection, Event, Journal, JournalFault, KeepOut, KeepOuts, MemberRecord, Moves, News, Plan,
-    PlanFault, Schedule, Task, Team, check_journal, check_keep_outs, check_moves, check_plan, check_schedule,
-    detections, schedule, strangers,
+    PlanFault, Schedule, Task, Team, check_bodies, check_journal, check_keep_outs, check_moves, check_plan,
+    check_schedule, detections, schedule, strangers,
 };
 pub use lattice::{Cell, Dir, Lattice};
 pub use map::{

@@ -1,6 +1,6 @@
 //! The options of `activecell fleet` and `activecell check`.
 
-use super::{LifelongArgs, MapArgs};
+use super::{GroupArgs, LifelongArgs, MapArgs};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -19,9 +19,11 @@ Examples:
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --time-limit 1 --save plan.txt
   activecell fleet maps/warehouse.map --scen maps/warehouse.scen --robots 10 --first --lattice hex
   activecell fleet maps/office.yaml --cell 0.5 --random --robots 20 --first --save plan.json
+  activecell fleet maps/warehouse.map --random --robots 6 --sizes 1,0,0,0,0,0 --strangers maps/strangers.json --first
   activecell fleet maps/warehouse.map --generate deliveries -n 40 --motion turning --steps 50 --step-time 5
 
 Exit codes: 0 all robots arrive, 3 there is no plan, or none was found within the limits.")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of the command line")]
 pub(crate) struct FleetArgs {
     #[command(flatten)]
     pub(crate) map: MapArgs,
@@ -37,6 +39,8 @@ pub(crate) struct FleetArgs {
     /// Give each target to whoever is best placed: of all ways to share them out, one with the least sum of distances
     #[arg(long)]
     pub(crate) assign: bool,
+    #[command(flatten)]
+    pub(crate) group: GroupArgs,
     /// Seconds to look for better plans [default: 10; none with --step-limit]
     #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
     pub(crate) time_limit: Option<f64>,
@@ -68,7 +72,8 @@ pub(crate) struct FleetArgs {
 /// Check a plan for many robots, whoever made it
 ///
 /// Knows no planner: every step must lead to a neighbouring free cell or nowhere, never two robots in a cell, never two
-/// that swap, and each must get from its start to its target. Tells the first fault with its step, robots and cells.
+/// that swap, and each must get from its start to its target. Sizes, distance and closed cells are those that the plan
+/// states, unless an option says otherwise. Tells the first fault with its step, robots and cells.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example:
@@ -84,6 +89,8 @@ pub(crate) struct CheckArgs {
     /// Starts and targets from a MovingAI scenario, a row for each robot [default: those that the plan states]
     #[arg(long, value_name = "FILE.scen")]
     pub(crate) scen: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) group: GroupArgs,
     /// Print one JSON object
     #[arg(long)]
     pub(crate) json: bool,

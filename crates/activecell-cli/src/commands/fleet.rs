@@ -1,11 +1,12 @@
 //! `activecell fleet`: a plan for many robots at once.
 
+use super::group::{self, Group};
 use super::outputs::{self, Kind};
 use super::{Done, counted, lifelong, load, team};
-use crate::args::{FleetArgs, WrongArgument};
+use crate::args::{FleetArgs, SizesArg, WrongArgument};
 use crate::terminal::Terminal;
-use activecell::{Map, Team, check_plan};
-use activecell_fleet::{Ending, Limits, Options, Outcome, solve};
+use activecell::{Bodies, KeepOuts, Map, Team, check_keep_outs, check_plan};
+use activecell_fleet::{Ending, Limits, Options, Outcome, solve_past};
 use activecell_formats::files;
 use activecell_formats::fleet::FleetReport;
 use activecell_formats::plan::{PlanFile, PlanFormat, Stated};
@@ -24,26 +25,21 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
     }
     let (formats, pictures) = (formats(args)?, outputs::pictures(&args.picture)?);
     let map = load::map(&args.map, None, terminal)?.map;
-    let mut team = match (&args.scen, args.robots) {
-        (Some(scen), robots) => team::of_scenario(&map, scen, robots)?,
-        (None, robots) => team::by_chance(&map, robots.unwrap_or_default(), args.seed)?,
-    };
-    if args.assign {
-        let _working = terminal.working(format!("{} robots: sharing out their targets", team.robots()));
-        team = Team::assigned(&map, team.starts().to_vec(), team.targets())?;
-    }
+    let team = team(args, &map, terminal)?;
+    let keep_outs = group::keep_outs(&args.group, &map, team.bodies())?.unwrap_or_default();
     let options = options(args);
     let clock = Instant::now();
     let outcome = {
         let robots = counted(team.robots() as u64, "robot");
         let working = terminal.working(format!("{robots}: looking for a plan"));
-        solve(&map, &team, &options, |found| {
+        solve_past(&map, &team, &keep_outs, &options, |found| {
             working.say(format!("{robots}: sum of costs {}, looking for better", found.sum_of_costs));
         })?
     };
     let elapsed_ms = clock.elapsed().as_secs_f64() * 1e3;
     if let Some(plan) = &outcome.plan {
         check_plan(&map, &team, plan)
+            .and_then(|()| check_keep_outs(&map, &team, &keep_outs, plan))
             .context("a wrong plan was made, and is not given out; please report this")?;
     }
     let report = report(args, &map, &team, &outcome, elapsed_ms);
@@ -53,10 +49,32 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
         let picture = FleetPicture { map: &map, title: &title, team: &team, plan, lower_bound, view };
         draw(&pictures, &picture, terminal)?;
     }
-    save(args, &formats, map, &team, outcome, &report)?;
+    save(args, &formats, map, (&team, &keep_outs), outcome, &report)?;
+    say_what_is_not_held(args, &formats, &team, &keep_outs, terminal);
     let text = if args.json { serde_json::to_string(&report)? + "\n" } else { text(&report) };
     Terminal::result(&text)?;
     Ok(if report.solved { Done::Reached } else { Done::NotReached })
+}
+
+/// The robots: from the scenario or by chance, with their bodies, and with their targets shared out if that is wanted.
+fn team(args: &FleetArgs, map: &Map, terminal: &Terminal) -> anyhow::Result<Team> {
+    let group = Group::read(&args.group)?;
+    let team = match (&args.scen, args.robots) {
+        (Some(scen), robots) => team::of_scenario(map, scen, robots, &group, &Bodies::default())?,
+        (None, robots) => team::by_chance(map, robots.unwrap_or_default(), args.seed, &group)?,
+    };
+    if !args.assign {
+        return Ok(team);
+    }
+    let _working = terminal.working(format!("{} robots: sharing out their targets", team.robots()));
+    let (bodies, radius) = (team.bodies(), team.bodies().radius(0));
+    if (0..team.robots()).any(|robot| bodies.radius(robot) != radius) {
+        let message = "--assign: the robots have different sizes, so that a target of one may have no room for another; give all one size, or leave --assign out";
+        return Err(WrongArgument(message.to_owned()).into());
+    }
+    // Bodies of one size go where one cell goes on the floor of that size.
+    let own = map.for_body(radius);
+    Ok(Team::assigned(&own, team.starts().to_vec(), team.targets())?.with_bodies(map, bodies.clone())?)
 }
 
 fn options(args: &FleetArgs) -> Options {
@@ -82,7 +100,10 @@ pub(super) fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument
     let written = || args.save.iter().chain(&args.picture);
     outputs::once_each(written())?;
     let mut sources = files::sources(&args.map.path);
-    sources.extend(args.scen.clone());
+    sources.extend(args.scen.iter().chain(&args.group.strangers).cloned());
+    if let Some(SizesArg::File(path)) = &args.group.sizes {
+        sources.push(path.clone());
+    }
     sources.extend(args.lifelong.tasks.iter().chain(&args.lifelong.agents).cloned());
     let sources: Vec<_> = sources.iter().filter_map(|path| path.canonicalize().ok()).collect();
     if let Some(path) = written().find(|path| path.canonicalize().is_ok_and(|it| sources.contains(&it))) {
@@ -118,7 +139,7 @@ fn save(
     args: &FleetArgs,
     formats: &[PlanFormat],
     map: Map,
-    team: &Team,
+    (team, keep_outs): (&Team, &KeepOuts),
     outcome: Outcome,
     report: &FleetReport,
 ) -> anyhow::Result<()> {
@@ -136,6 +157,8 @@ fn save(
         map: Some(map),
         starts: Some(team.starts().to_vec()),
         targets: Some(team.targets().to_vec()),
+        bodies: team.bodies().clone(),
+        keep_outs: keep_outs.all().to_vec(),
         stated,
         ..PlanFile::new(plan)
     };
@@ -144,6 +167,25 @@ fn save(
         files::write_atomically(path, text.as_bytes())?;
     }
     Ok(())
+}
+
+/// Only one format holds all that a plan has to keep.
+fn say_what_is_not_held(
+    args: &FleetArgs,
+    formats: &[PlanFormat],
+    team: &Team,
+    keep_outs: &KeepOuts,
+    terminal: &Terminal,
+) {
+    if team.bodies().are_cells() && keep_outs.is_empty() {
+        return;
+    }
+    for (path, _) in args.save.iter().zip(formats).filter(|(_, format)| **format != PlanFormat::Json) {
+        let path = path.display();
+        terminal.note(&format!(
+            "note: {path} holds neither sizes nor distance nor closed cells; check it with the same options, or save .json"
+        ));
+    }
 }
 
 fn report(args: &FleetArgs, map: &Map, team: &Team, outcome: &Outcome, elapsed_ms: f64) -> FleetReport {

@@ -7,6 +7,7 @@ mod control;
 mod convert;
 mod embed;
 mod fleet;
+mod group;
 mod info;
 mod lifelong;
 mod load;

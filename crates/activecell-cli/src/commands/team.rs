@@ -1,13 +1,22 @@
 //! The robots of a group, from the rows of a scenario or by chance.
 
+use super::group::Group;
 use super::scen;
 use crate::args::WrongArgument;
-use activecell::{Error, Map, Team};
+use activecell::{Bodies, Error, Map, Team};
 use anyhow::Context;
 use std::path::Path;
 
 /// The first robots of a scenario, all unless their number is given, on this map.
-pub(super) fn of_scenario(map: &Map, path: &Path, robots: Option<usize>) -> anyhow::Result<Team> {
+///
+/// What the options do not say of their bodies is as `stated`.
+pub(super) fn of_scenario(
+    map: &Map,
+    path: &Path,
+    robots: Option<usize>,
+    group: &Group,
+    stated: &Bodies,
+) -> anyhow::Result<Team> {
     let tasks = scen::read(path)?;
     let rows = robots.unwrap_or(tasks.len());
     if rows > tasks.len() {
@@ -21,10 +30,14 @@ pub(super) fn of_scenario(map: &Map, path: &Path, robots: Option<usize>) -> anyh
         scen::fits(task, map).with_context(|| place(row))?;
     }
     let (starts, targets) = tasks.iter().map(|task| (task.from, task.to)).unzip();
-    Team::new(map, starts, targets).map_err(|error| {
+    let bodies = group.bodies(rows, stated)?;
+    let team = Team::new(map, starts, targets).and_then(|team| team.with_bodies(map, bodies));
+    team.map_err(|error| {
         let place = match &error {
             Error::OfRobot { robot, .. } => place(*robot),
-            Error::SharedStart { robots, .. } | Error::SharedTarget { robots, .. } => place(robots[1]),
+            Error::SharedStart { robots, .. }
+            | Error::SharedTarget { robots, .. }
+            | Error::TooClose { robots, .. } => place(robots[1]),
             _ => path.display().to_string(),
         };
         anyhow::Error::new(error).context(place)
@@ -32,14 +45,23 @@ pub(super) fn of_scenario(map: &Map, path: &Path, robots: Option<usize>) -> anyh
 }
 
 /// Robots by chance.
-pub(super) fn by_chance(map: &Map, robots: usize, seed: u64) -> anyhow::Result<Team> {
-    Team::random(map, robots, seed).map_err(|error| match error {
+pub(super) fn by_chance(map: &Map, robots: usize, seed: u64, group: &Group) -> anyhow::Result<Team> {
+    // No map has so many cells: not even their sizes are worth the memory.
+    anyhow::ensure!(robots <= map.cells(), too_many(robots, "the map has", map.cells(), "cells"));
+    let bodies = group.bodies(robots, &Bodies::default())?;
+    let are_cells = bodies.are_cells();
+    Team::random_bodies(map, bodies, robots, seed).map_err(|error| match error {
+        Error::TeamSize { free, .. } if are_cells => {
+            too_many(robots, "the floor's largest region has", free, "free cells").into()
+        }
         Error::TeamSize { free, .. } => {
-            let message = format!(
-                "--robots {robots}: the floor's largest region has {free} free cells; take fewer robots"
-            );
-            WrongArgument(message).into()
+            too_many(robots, "of these sizes and at this distance there was room for", free, "").into()
         }
         other => other.into(),
     })
+}
+
+fn too_many(robots: usize, what: &str, count: usize, of: &str) -> WrongArgument {
+    let room = format!("{what} {count} {of}");
+    WrongArgument(format!("--robots {robots}: {}; take fewer robots", room.trim_end()))
 }

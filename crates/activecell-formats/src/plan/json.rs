@@ -4,7 +4,7 @@ use super::scan::MAX_COORDINATE;
 use super::{PlanFile, Stated, moves, room};
 use crate::error::{Error, quoted};
 use crate::run::MapRows;
-use activecell::{Cell, Lattice, Plan};
+use activecell::{Bodies, Cell, KeepOut, Lattice, Plan};
 use serde::{Deserialize, Serialize};
 use serde_json::ser::Formatter;
 use std::io;
@@ -40,10 +40,39 @@ struct Document {
     makespan_lower_bound: Option<u64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     comp_time_ms: Option<f64>,
+    /// The radius of each robot in cells; all 0 if there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    sizes: Vec<u32>,
+    /// The least distance between robots in cells; 1 if it is not said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    distance: Option<u32>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    keep_outs: Vec<Closed>,
     steps: usize,
     robots: Vec<Robot>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     map: Option<MapRows>,
+}
+
+/// A cell that is closed from one step to another, both included.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Closed {
+    cell: [i32; 2],
+    from: u32,
+    to: u32,
+}
+
+impl Closed {
+    pub(crate) const fn keep_out(&self) -> KeepOut {
+        let [x, y] = self.cell;
+        KeepOut { cell: Cell::new(x, y), from_step: self.from, to_step: self.to }
+    }
+
+    const fn of(keep_out: &KeepOut) -> Self {
+        let Cell { x, y } = keep_out.cell;
+        Self { cell: [x, y], from: keep_out.from_step, to: keep_out.to_step }
+    }
 }
 
 #[derive(Serialize, Deserialize)]
@@ -74,6 +103,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
     let lattice = lattice(&file.lattice)?;
     let plan = plan(&file, lattice)?;
     let targets = targets(&file.robots)?;
+    let bodies = bodies(&file)?;
+    let keep_outs = file.keep_outs.iter().map(Closed::keep_out).collect();
     let map = file.map.map(MapRows::map).transpose()?;
     if let Some(map) = map.as_ref().filter(|map| map.lattice() != lattice) {
         let other = map.lattice();
@@ -89,7 +120,16 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
         makespan_lower_bound: file.makespan_lower_bound,
         comp_time_ms: file.comp_time_ms,
     };
-    Ok(PlanFile { plan, lattice: Some(lattice), map, starts: None, targets, stated })
+    Ok(PlanFile { plan, lattice: Some(lattice), map, starts: None, targets, bodies, keep_outs, stated })
+}
+
+fn bodies(file: &Document) -> Result<Bodies, Error> {
+    let (sizes, robots) = (file.sizes.len(), file.robots.len());
+    if sizes > 0 && sizes != robots {
+        let reason = format!("`sizes` has {sizes} radii for {robots} robots; give one for each, or none");
+        return Err(Error::file(reason));
+    }
+    Ok(Bodies::new(file.sizes.clone(), file.distance.unwrap_or(1))?)
 }
 
 fn lattice(name: &str) -> Result<Lattice, Error> {
@@ -148,7 +188,8 @@ fn not_json(error: &serde_json::Error) -> Error {
 }
 
 pub(super) fn write(file: &PlanFile) -> Result<String, Error> {
-    let PlanFile { plan, stated, .. } = file;
+    let PlanFile { plan, stated, bodies, keep_outs, .. } = file;
+    let sizes = (0..plan.robots()).map(|robot| bodies.radius(robot));
     let lattice = file.lattice.unwrap_or_default();
     let pair = |cell: Cell| [cell.x, cell.y];
     let robots = (0..plan.robots()).map(|robot| {
@@ -171,6 +212,9 @@ pub(super) fn write(file: &PlanFile) -> Result<String, Error> {
         makespan: Some(plan.makespan() as u64),
         makespan_lower_bound: stated.makespan_lower_bound,
         comp_time_ms: stated.comp_time_ms,
+        sizes: if bodies.largest() == 0 { Vec::new() } else { sizes.collect() },
+        distance: Some(bodies.distance()).filter(|&distance| distance != 1),
+        keep_outs: keep_outs.iter().map(Closed::of).collect(),
         steps: plan.steps(),
         robots: robots.collect(),
         map: file.map.as_ref().map(MapRows::of),

@@ -3,7 +3,7 @@
 //! | ending | format | lattices | targets |
 //! |---|---|---|---|
 //! | `.txt` | the text that MAPF tools share: LaCAM, pibt2, mapf-visualizer | both | yes |
-//! | `.json` | ours: runs of moves, with the map if wanted | both | yes |
+//! | `.json` | ours: runs of moves, with the map if wanted, with sizes, distance and closed cells | both | yes |
 //! | `.paths` | a path for each robot: MAPF-LNS2, EECBS, RHCR | not said | no |
 //!
 //! A reader takes what the bytes say, robots that jump included: [`check_plan`](activecell::check_plan) judges plans.
@@ -14,10 +14,11 @@ mod paths;
 mod scan;
 mod text;
 
+pub(crate) use json::Closed;
 pub use json::VERSION;
 
 use crate::error::{Error, shown};
-use activecell::{Cell, Lattice, Map, Plan};
+use activecell::{Bodies, Cell, KeepOut, Lattice, Map, Plan};
 use std::path::Path;
 
 /// The longest plan file that is read, in bytes.
@@ -54,6 +55,10 @@ pub struct PlanFile {
     pub starts: Option<Vec<Cell>>,
     /// Where each robot should end.
     pub targets: Option<Vec<Cell>>,
+    /// The robots' sizes, and the distance that they keep; only `.json` can hold them.
+    pub bodies: Bodies,
+    /// The cells that the plan keeps out of; only `.json` can hold them.
+    pub keep_outs: Vec<KeepOut>,
     /// What the file states besides.
     pub stated: Stated,
 }
@@ -82,7 +87,16 @@ pub struct Stated {
 impl PlanFile {
     /// A file that says nothing but the plan.
     pub fn new(plan: Plan) -> Self {
-        Self { plan, lattice: None, map: None, starts: None, targets: None, stated: Stated::default() }
+        Self {
+            plan,
+            lattice: None,
+            map: None,
+            starts: None,
+            targets: None,
+            bodies: Bodies::default(),
+            keep_outs: Vec::new(),
+            stated: Stated::default(),
+        }
     }
 
     /// Where each robot should start; where the file does not say, where it does.

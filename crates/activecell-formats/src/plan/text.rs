@@ -54,7 +54,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
         }
     }
     let Header { stated, lattice, starts, targets, .. } = header;
-    Ok(PlanFile { plan, lattice, map: None, starts, targets, stated })
+    Ok(PlanFile { lattice, starts, targets, stated, ..PlanFile::new(plan) })
 }
 
 impl Header {

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::lattice::{Cell, Lattice};
 use crate::map::Map;
+use std::collections::BTreeMap;
 
 /// The largest radius and the largest distance, in cells.
 const MOST: u32 = 1 << 14;
@@ -103,6 +104,25 @@ impl Bodies {
         });
         standing.leave(&cells[..entered]);
         pair
+    }
+
+    /// Cells for so many robots that keep their distances, each the first left of the `floors` of its radius. Fewer if
+    /// there is no room for the next.
+    pub(super) fn placed(&self, map: &Map, robots: usize, floors: &BTreeMap<u32, Vec<Cell>>) -> Vec<Cell> {
+        let mut standing = Standing::new(map);
+        let mut left: BTreeMap<u32, _> =
+            floors.iter().map(|(&radius, cells)| (radius, cells.iter())).collect();
+        let mut cells = Vec::new();
+        for robot in 0..robots {
+            // What is too close for one robot is too close for all of its size that follow.
+            let mut own = left.get_mut(&self.radius(robot)).into_iter().flatten();
+            let Some(&cell) = own.find(|&&cell| self.too_close(&standing, &cells, cell).is_none()) else {
+                break;
+            };
+            standing.enter(cell, robot);
+            cells.push(cell);
+        }
+        cells
     }
 
     /// The lowest of the robots in `others` that is too close to the next one in `cell`.

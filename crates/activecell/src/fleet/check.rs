@@ -1,7 +1,7 @@
 //! The checker: knows the map, the team and the rules of moving, and nothing of how plans are made.
 
 use super::bodies::Standing;
-use super::{KeepOuts, Plan, Team};
+use super::{Bodies, KeepOuts, Plan, Team};
 use crate::lattice::Cell;
 use crate::map::Map;
 use std::fmt;
@@ -117,6 +117,24 @@ pub enum PlanFault {
     },
 }
 
+impl PlanFault {
+    /// The step in which the robots arrive; `None` if it is no step's fault.
+    pub const fn step(&self) -> Option<usize> {
+        match *self {
+            Self::WrongStart { .. } => Some(0),
+            Self::Outside { step, .. }
+            | Self::Blocked { step, .. }
+            | Self::Jump { step, .. }
+            | Self::Collision { step, .. }
+            | Self::Swap { step, .. }
+            | Self::NoRoom { step, .. }
+            | Self::TooClose { step, .. }
+            | Self::Closed { step, .. } => Some(step),
+            Self::Robots { .. } | Self::NotArrived { .. } => None,
+        }
+    }
+}
+
 impl fmt::Display for PlanFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
@@ -192,11 +210,7 @@ pub fn check_plan(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> 
             return Err(PlanFault::WrongStart { robot, cell, start });
         }
     }
-    if team.bodies().are_cells() {
-        check_moves(map, plan)?;
-    } else {
-        check_bodies(map, team, plan)?;
-    }
+    check_bodies(map, team.bodies(), plan)?;
     let ends = plan.row(plan.steps()).iter().zip(team.targets()).enumerate();
     for (robot, (&cell, &target)) in ends {
         if cell != target {
@@ -251,13 +265,31 @@ pub(super) fn check_rows<'a>(map: &Map, rows: impl Iterator<Item = &'a [Cell]>) 
     Ok(())
 }
 
-/// Checks that bodies have room, move by the rules and keep their distances.
+/// The same as [`check_moves`] for robots with bodies: they must have room and keep their distances at every step.
 ///
 /// Swaps need no look where centres must be two cells apart or more: robots that were on either side of each other
 /// would be too close after the step. Only one-cell robots without a distance can swap, and teams of bodies may have
 /// some.
-fn check_bodies(map: &Map, team: &Team, plan: &Plan) -> Result<(), PlanFault> {
-    let bodies = team.bodies();
+///
+/// # Errors
+/// The first [`PlanFault`]: of the earliest step, there of the robot with the lowest number.
+///
+/// ```
+/// use activecell::{Bodies, Cell, Lattice, Map, Plan, check_bodies};
+/// let map = Map::parse(Lattice::Square, "....")?;
+/// let plan = Plan::new(2, [0, 3, 1, 2].map(|x| Cell::new(x, 0)).to_vec())?;
+/// assert_eq!(check_bodies(&map, &Bodies::default(), &plan), Ok(()));
+/// let fault = check_bodies(&map, &Bodies::new(vec![], 2)?, &plan).unwrap_err();
+/// assert_eq!(
+///     fault.to_string(),
+///     "step 1: robots 0 and 1 at (1,0) and (2,0) are too close; their centres must be at least 2 cells apart"
+/// );
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn check_bodies(map: &Map, bodies: &Bodies, plan: &Plan) -> Result<(), PlanFault> {
+    if bodies.are_cells() {
+        return check_moves(map, plan);
+    }
     let (mut now, mut before) = (Standing::new(map), Standing::new(map));
     for (step, row) in plan.rows().enumerate() {
         let from = if step == 0 { row } else { plan.row(step - 1) };

@@ -19,7 +19,7 @@ mod strangers;
 mod team;
 
 pub use bodies::Bodies;
-pub use check::{PlanFault, check_keep_outs, check_moves, check_plan};
+pub use check::{PlanFault, check_bodies, check_keep_outs, check_moves, check_plan};
 pub use check_journal::{JournalFault, check_journal};
 pub use journal::{Event, Journal, Moves, News, Task};
 pub use keep_out::{KeepOut, KeepOuts};

@@ -138,13 +138,47 @@ impl Team {
         }
         let mut rng = Rng::new(seed);
         let mut draw = || {
-            for drawn in 0..robots {
-                let other = drawn + rng.below((cells.len() - drawn) as u32) as usize;
-                cells.swap(drawn, other);
-            }
+            shuffle(&mut cells, robots, &mut rng);
             cells[..robots].to_vec()
         };
         Self::new(map, draw(), draw())
+    }
+
+    /// The same for robots with bodies: each starts and ends on the largest region of the floor of its size, and all keep
+    /// their distances there. Robots are placed one after the other, wherever there is still room: large ones find
+    /// more of it if they come first.
+    ///
+    /// # Errors
+    /// [`Error::TeamSize`] if there is no room for so many, with the number of those for which there was;
+    /// [`Error::BadValue`] as [`Team::with_bodies`].
+    ///
+    /// ```
+    /// use activecell::{Bodies, Lattice, Map, Team};
+    /// let map = Map::parse(Lattice::Hex, "......\n......\n......\n......")?;
+    /// let team = Team::random_bodies(&map, Bodies::new(vec![1, 0], 2)?, 2, 1)?;
+    /// assert!(map.lattice().block_distance(team.starts()[0], team.starts()[1]) >= 3);
+    /// # Ok::<(), activecell::Error>(())
+    /// ```
+    pub fn random_bodies(map: &Map, bodies: Bodies, robots: usize, seed: u64) -> Result<Self, Error> {
+        if bodies.are_cells() {
+            return Self::random(map, robots, seed);
+        }
+        let mut rng = Rng::new(seed);
+        let radii = (0..robots).map(|robot| bodies.radius(robot)).collect::<BTreeSet<u32>>();
+        let mut floors: BTreeMap<u32, Vec<Cell>> =
+            radii.into_iter().map(|radius| (radius, map.for_body(radius).largest_region())).collect();
+        let mut draw = || {
+            for cells in floors.values_mut() {
+                let count = cells.len();
+                shuffle(cells, count, &mut rng);
+            }
+            let cells = bodies.placed(map, robots, &floors);
+            if cells.len() == robots {
+                return Ok(cells);
+            }
+            Err(Error::TeamSize { starts: robots, targets: robots, free: cells.len() })
+        };
+        Self::new(map, draw()?, draw()?)?.with_bodies(map, bodies)
     }
 
     /// How many robots there are.
@@ -185,6 +219,14 @@ impl Team {
             }
         }
         Ok(Some(sum))
+    }
+}
+
+/// Draws so many of the cells to their front.
+fn shuffle(cells: &mut [Cell], count: usize, rng: &mut Rng) {
+    for drawn in 0..count {
+        let other = drawn + rng.below((cells.len() - drawn) as u32) as usize;
+        cells.swap(drawn, other);
     }
 }
 

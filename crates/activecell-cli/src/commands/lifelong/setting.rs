@@ -1,6 +1,7 @@
 //! What a run without end begins with: a floor, robots and tasks.
 
 use crate::args::{FleetArgs, GenerateArg, WrongArgument};
+use crate::commands::group::Group;
 use crate::commands::{load, team};
 use crate::terminal::Terminal;
 use activecell::{Cell, Error, Map, Task};
@@ -88,7 +89,9 @@ fn starts(args: &FleetArgs, map: &Map) -> anyhow::Result<Vec<Cell>> {
             let starts = lorr::read_agents(&files::read_bytes(path, MAX_LIST_BYTES)?, map);
             Ok(first(args, starts.map_err(|error| error.in_file(path))?, path)?)
         }
-        (None, Some(robots)) => Ok(team::by_chance(map, robots, args.seed)?.starts().to_vec()),
+        (None, Some(robots)) => {
+            Ok(team::by_chance(map, robots, args.seed, &Group::read(&args.group)?)?.starts().to_vec())
+        }
         (None, None) => {
             let message =
                 "nothing says how many robots there are; give --agents FILE, or -n N for starts by chance";

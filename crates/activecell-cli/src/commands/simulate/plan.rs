@@ -35,6 +35,7 @@ pub(super) fn run(args: &SimulateArgs, file: &PlanFile, terminal: &Terminal) -> 
         let path = args.run.display();
         return Err(WrongArgument(format!("{option} is for runs; {path} is a plan")).into());
     }
+    refuse_bodies(args, file, terminal)?;
     let map = map(args, file)?;
     let robot = match &args.robot {
         Some(path) => load::robot(path)?,
@@ -59,6 +60,21 @@ pub(super) fn run(args: &SimulateArgs, file: &PlanFile, terminal: &Terminal) -> 
     let report = report(args, &map, &schedule, &runner, &done);
     Terminal::result(&if args.json { serde_json::to_string(&report)? + "\n" } else { text(&report) })?;
     Ok(Done::Reached)
+}
+
+/// Schedules keep the order in which robots of one cell pass each cell, and neither distances nor times.
+fn refuse_bodies(args: &SimulateArgs, file: &PlanFile, terminal: &Terminal) -> anyhow::Result<()> {
+    let path = args.run.display();
+    anyhow::ensure!(
+        file.bodies.largest() == 0,
+        "{path}: some robots are larger than a cell, and schedules are for robots of one cell; take larger cells"
+    );
+    if file.bodies.distance() > 1 || !file.keep_outs.is_empty() {
+        terminal.note(&format!(
+            "note: {path} keeps a distance or keeps out of closed cells; by order alone, robots only keep from touching"
+        ));
+    }
+    Ok(())
 }
 
 /// Bodies of this radius in cells can go around every ring.

@@ -3,6 +3,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot make its plan should stop")]
 
+mod adversary;
+
 use activecell::schedule::{Delays, Execution, Runner, Stop};
 use activecell::{
     Cell, Error, Lattice, Map, Plan, Rng, Robot, Schedule, check_program, check_schedule,
