@@ -151,7 +151,7 @@ fn runs_are_saved_as_the_league_does_and_drawn() {
         assert_eq!((&output["actionModel"], &output["teamSize"]), (&json!(model), &json!(2)));
         assert_eq!((&output["makespan"], &output["numTaskFinished"]), (&report["steps"], &json!(4)));
         let cells = fs::read_to_string(path.join("cells.txt")).unwrap();
-        let last: String = ends(&output).iter().map(|[x, y]| format!("({x},{y}),")).collect();
+        let last = ends(&output).iter().map(|[x, y]| format!("({x},{y}),")).collect::<Vec<_>>().concat();
         assert!(cells.trim_end().ends_with(&last), "{cells} {last}");
         assert!(fs::read(path.join("run.gif")).unwrap().starts_with(b"GIF89a"));
         let picture = fs::read_to_string(path.join("run.svg")).unwrap();
