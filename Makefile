@@ -3,7 +3,7 @@
 # make deps    what only root can install (optional; nothing so far)
 # make docs    the pictures of the documents, drawn anew
 # make bench   every method beside its peers, 20 minutes (QUICK=1: a few); writes docs/benchmarks.md
-# make bench-fleet  groups of robots for 30 s an instance, 20 minutes (QUICK=1: 2); writes docs/benchmarks-fleet.md
+# make bench-fleet  groups of robots for 30 s an instance, 15 minutes (QUICK=1: 1); writes docs/benchmarks-fleet.md
 # make count   instruction counts of the hot loops against those kept (UPDATE=1 keeps the new ones)
 # make clean   remove everything that was built
 

@@ -107,20 +107,20 @@ grow() {
 # The planner for groups: map, scenario in the data folder (`-`: the map's random one), robots (0: all rows), lattice.
 FLEET='random-32-32-20 - 100,400 square
 random-32-32-20 - 400 hex
-random-64-64-20 - 400,1000 square
+random-64-64-20 - 1000 square
 random-64-64-20 - 1000 hex
-empty-48-48 - 400,1000 square
+empty-48-48 - 1000 square
 empty-48-48 - 1000 hex
-room-64-64-8 - 400,1000 square
+room-64-64-8 - 1000 square
 room-64-64-8 - 1000 hex
 maze-32-32-4 - 0 square
-maze-128-128-2 - 400,1000 square
+maze-128-128-2 - 1000 square
 maze-128-128-2 - 1000 hex
-warehouse-10-20-10-2-1 - 400,1000 square
+warehouse-10-20-10-2-1 - 1000 square
 warehouse-10-20-10-2-1 - 1000 hex
 warehouse-20-40-10-2-2 mapf/warehouse-20-40-10-2-2-10000agents-1 1000,2000,5000,10000 square
 warehouse-20-40-10-2-2 mapf/warehouse-20-40-10-2-2-10000agents-1 1000,10000 hex
-den520d - 400,1000 square
+den520d - 1000 square
 den520d - 1000 hex
 ost003d - 1000 square
 brc202d - 1000 square

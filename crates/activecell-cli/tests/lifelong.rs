@@ -151,8 +151,7 @@ fn runs_are_saved_as_the_league_does_and_drawn() {
         assert_eq!((&output["actionModel"], &output["teamSize"]), (&json!(model), &json!(2)));
         assert_eq!((&output["makespan"], &output["numTaskFinished"]), (&report["steps"], &json!(4)));
         let cells = fs::read_to_string(path.join("cells.txt")).unwrap();
-        let last: Vec<String> = ends(&output).iter().map(|[x, y]| format!("({x},{y}),")).collect();
-        let last = last.concat();
+        let last = ends(&output).iter().map(|[x, y]| format!("({x},{y}),")).collect::<Vec<_>>().concat();
         assert!(cells.trim_end().ends_with(&last), "{cells} {last}");
         assert!(fs::read(path.join("run.gif")).unwrap().starts_with(b"GIF89a"));
         let picture = fs::read_to_string(path.join("run.svg")).unwrap();
@@ -203,6 +202,7 @@ fn bad_input_is_told_in_one_line() {
         (rooms("--generate visits -n 99"), 2, "--robots 99: "),
         (rooms("--generate visits -n 0"), 2, "there are no robots"),
         (rooms("--generate visits -n 2 --first"), 2, "--first is for a plan with an end"),
+        (rooms("--generate visits -n 2 --distance 2"), 2, "--distance is for a plan with an end"),
         (rooms("--generate visits --random -n 2"), 2, "--random is for a plan with an end"),
         (rooms("--generate visits -n 2 --lattice hex --save run.json"), 2, "squares only"),
         (rooms("--random -n 2"), 2, "--steps is for runs with tasks"),

@@ -67,7 +67,7 @@ pub(super) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
     let clock = Instant::now();
     let Setting { map, starts, tasks, .. } = &setting;
     let mut lifelong = Lifelong::new(map, starts, &[], tasks.clone(), options(args, &setting))
-        .map_err(|error| Setting::place(args, error))?;
+        .map_err(|error| setting::place(args, error))?;
     let (journal, planned_us) = go(&mut lifelong, steps, terminal)?;
     let elapsed_ms = clock.elapsed().as_secs_f64() * 1e3;
     check_journal(map, tasks, &journal)

@@ -46,17 +46,17 @@ impl Setting {
         }
         Ok(setting)
     }
+}
 
-    /// Says in which file the mistake is, if it is in one.
-    pub(super) fn place(args: &FleetArgs, error: Error) -> anyhow::Error {
-        let lists = &args.lifelong;
-        let list = if matches!(error, Error::OfTask { .. }) { &lists.tasks } else { &lists.agents };
-        let file = if is_problem(args) { Some(&args.map.path) } else { list.as_ref() };
-        let error = anyhow::Error::new(error);
-        match file {
-            Some(file) => error.context(file.display().to_string()),
-            None => error,
-        }
+/// Says in which file the mistake is, if it is in one.
+pub(super) fn place(args: &FleetArgs, error: Error) -> anyhow::Error {
+    let lists = &args.lifelong;
+    let list = if matches!(error, Error::OfTask { .. }) { &lists.tasks } else { &lists.agents };
+    let file = if is_problem(args) { Some(&args.map.path) } else { list.as_ref() };
+    let error = anyhow::Error::new(error);
+    match file {
+        Some(file) => error.context(file.display().to_string()),
+        None => error,
     }
 }
 
