@@ -30,6 +30,10 @@ demo: $(ACTIVECELL)
 	@printf '\n== the same, driven 10,000 times without sensors, and once with sensors where a tenth of the obstacles is unknown\n'
 	@$(ACTIVECELL) simulate out/run.json --trials 10000 --picture out/offline.png
 	@$(ACTIVECELL) simulate maps/office-run.json --mode task --missing 0.1 --seed 3 --picture out/task.gif
+	@printf '\n== 30 robots in a warehouse, planned together, then executed by robots that are late\n'
+	@$(ACTIVECELL) fleet maps/warehouse.map --scen maps/warehouse.scen --time-limit 2 \
+	    --save out/plan.json --picture out/fleet.svg --picture out/fleet.gif
+	@$(ACTIVECELL) simulate out/plan.json --delay-chance 0.1 --max-delay 10 --slow 0.2 --trials 100
 	@printf '\nThe pictures are in out/: .svg and .png show the route, .gif the wave and the robot moving.\n'
 	@ls out/*.svg out/*.png out/*.gif
 
@@ -58,6 +62,8 @@ docs: $(ACTIVECELL)
 	$(ACTIVECELL) table control --picture docs/pictures/control.svg > /dev/null
 	cargo run -q -p activecell-picture --example prediction > docs/pictures/prediction.svg
 	$(ACTIVECELL) calibrate logs/monday logs/tuesday logs/friday --robot logs/robot.toml --picture docs/pictures/calibration.svg > /dev/null
+	$(ACTIVECELL) fleet maps/shelves.txt --random -n 250 --step-limit 20000 --picture docs/pictures/fleet.gif -q > /dev/null
+	$(ACTIVECELL) fleet maps/shelves.txt --random -n 60 --lattice hex --step-limit 20000 --picture docs/pictures/fleet-ways.png -q > /dev/null
 	$(ACTIVECELL) simulate maps/office-run.json --trials 4000 --picture docs/pictures/simulate-offline.png -q > /dev/null
 	$(ACTIVECELL) simulate maps/office-run.json --mode task --robot maps/quick.toml --movers 6 --mover-speed 0.25 --seed 4 --picture docs/pictures/simulate-movers.gif -q > /dev/null
 	$(ACTIVECELL) simulate maps/office-run.json --mode task --missing 0.1 --seed 3 --picture docs/pictures/simulate-task.png --picture docs/pictures/simulate-task.gif -q > /dev/null

@@ -107,7 +107,7 @@ fn what_cannot_be_is_told_from_what_was_not_found() {
     let path = folder.path();
     for (arguments, words) in [
         ("pipe.txt --scen pipe.scen", "fleet: 2 robots, no plan exists\n"),
-        ("walls.txt --scen walls.scen", "fleet: 1 robot, no plan exists\n"),
+        ("walls.txt --scen walls.scen", "fleet: 1 robot, no plan exists: robot 0 has no way from "),
         ("rooms.map --scen rooms.scen --step-limit 1", "fleet: 4 robots, no plan found\n"),
     ] {
         let (code, stdout, stderr) = run(path, &format!("fleet {arguments} --save never.txt"));

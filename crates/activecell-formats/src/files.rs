@@ -32,7 +32,10 @@ pub fn read_bytes(path: &Path, limit_bytes: u64) -> Result<Vec<u8>, Error> {
     if metadata.len() > limit_bytes {
         return Err(too_large());
     }
-    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    let mut bytes = Vec::new();
+    bytes
+        .try_reserve_exact(metadata.len() as usize)
+        .map_err(|_| failed(io::ErrorKind::OutOfMemory.into()))?;
     // One byte more tells a file of exactly the limit from a longer one.
     let file = fs::File::open(path).map_err(failed)?;
     file.take(limit_bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
@@ -94,8 +97,12 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if old.is_some() && (!old_is_file || path.starts_with("/dev")) {
         return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
     }
-    // A link stays a link: the file that it names is replaced.
-    let target = if old_is_file { fs::canonicalize(path)? } else { path.to_owned() };
+    // A link stays a link: the file that it names is replaced, or made.
+    let target = match fs::read_link(path) {
+        _ if old_is_file => fs::canonicalize(path)?,
+        Ok(named) => path.parent().unwrap_or(Path::new("")).join(named),
+        Err(_) => path.to_owned(),
+    };
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
         return Err(io::ErrorKind::NotFound.into());

@@ -1,7 +1,7 @@
 //! `activecell check`: whether a plan keeps the rules, whoever made it.
 
 use super::group::{self, Group};
-use super::{counted, load, team};
+use super::{counted, load, scen, team};
 use crate::args::{CheckArgs, LatticeArg, MapArgs, WrongArgument};
 use crate::terminal::Terminal;
 use activecell::{KeepOuts, Lattice, Map, Plan, PlanFault, Team, check_bodies, check_keep_outs, check_plan};
@@ -51,6 +51,10 @@ pub(crate) fn run(args: CheckArgs, terminal: &Terminal) -> anyhow::Result<()> {
         Terminal::result(&(serde_json::to_string(&report)? + "\n"))?;
     } else if fault.is_none() {
         Terminal::result(&text(&report))?;
+        let rows = scen.map_or(Ok(robots), |path| scen::read(&path).map(|tasks| tasks.len()))?;
+        if rows > robots {
+            terminal.note(&format!("note: the scenario has {rows} rows, the plan is for the first {robots}"));
+        }
     }
     match fault {
         Some(fault) => Err(anyhow::Error::new(fault).context(path.display().to_string())),
@@ -83,9 +87,10 @@ fn on_lattice(mut args: MapArgs, said: Option<Lattice>) -> Result<MapArgs, Wrong
 fn text(report: &CheckReport) -> String {
     let CheckReport { sum_of_costs, makespan, .. } = report;
     let (robots, steps) = (counted(report.robots as u64, "robot"), counted(report.steps as u64, "step"));
+    let on = if report.lattice == Lattice::Hex.name() { " on hexagons" } else { "" };
     let arrive = if report.targets_known { ", all arrive" } else { "; nothing says where they should end" };
     let mut text = format!(
-        "sound: {robots}, {steps}{arrive}\nsum of costs   {sum_of_costs}\nmakespan       {makespan}\n"
+        "sound: {robots}{on}, {steps}{arrive}\nsum of costs   {sum_of_costs}\nmakespan       {makespan}\n"
     );
     let CheckReport { largest_size, distance, keep_outs, .. } = *report;
     if largest_size > 0 || distance > 1 {

@@ -5,8 +5,8 @@ use super::outputs::{self, Kind};
 use super::{Done, counted, lifelong, load, team};
 use crate::args::{FleetArgs, SizesArg, WrongArgument};
 use crate::terminal::Terminal;
-use activecell::{Bodies, KeepOuts, Map, Team, check_keep_outs, check_plan};
-use activecell_fleet::{Ending, Limits, Options, Outcome, solve_past};
+use activecell::{Bodies, Cell, KeepOuts, Map, Plan, Team, check_keep_outs, check_plan};
+use activecell_fleet::{Ending, Floor, Limits, Options, Outcome, solve_past};
 use activecell_formats::files;
 use activecell_formats::fleet::FleetReport;
 use activecell_formats::plan::{PlanFile, PlanFormat, Stated};
@@ -43,15 +43,25 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
             .context("a wrong plan was made, and is not given out; please report this")?;
     }
     let report = report(args, &map, &team, &outcome, elapsed_ms);
-    if let Some(plan) = &outcome.plan {
+    if let Some(plan) = outcome.plan {
+        let file = plan_file(args, &map, (&team, &keep_outs), plan, &report);
+        for (path, &format) in args.save.iter().zip(&formats) {
+            let text = file.write(format).map_err(|error| error.in_file(path))?;
+            files::write_atomically(path, text.as_bytes())?;
+        }
+        say_what_is_not_held(args, &formats, &team, &keep_outs, terminal);
+        // A picture that fails costs no plan.
         let title = args.map.path.file_stem().unwrap_or_default().to_string_lossy();
         let (lower_bound, view) = (Some(report.lower_bound), FleetView::default());
-        let picture = FleetPicture { map: &map, title: &title, team: &team, plan, lower_bound, view };
+        let picture =
+            FleetPicture { map: &map, title: &title, team: &team, plan: &file.plan, lower_bound, view };
         draw(&pictures, &picture, terminal)?;
     }
-    save(args, &formats, map, (&team, &keep_outs), outcome, &report)?;
-    say_what_is_not_held(args, &formats, &team, &keep_outs, terminal);
-    let text = if args.json { serde_json::to_string(&report)? + "\n" } else { text(&report) };
+    let text = if args.json {
+        serde_json::to_string(&report)? + "\n"
+    } else {
+        text(&report, if report.solved { None } else { cut_off(&map, &team) })
+    };
     Terminal::result(&text)?;
     Ok(if report.solved { Done::Reached } else { Done::NotReached })
 }
@@ -134,16 +144,14 @@ pub(super) fn draw(
     Ok(())
 }
 
-/// Writes the plan, if there is one, into every file that was asked for.
-fn save(
+/// The plan as a file, with all that it holds.
+fn plan_file(
     args: &FleetArgs,
-    formats: &[PlanFormat],
-    map: Map,
+    map: &Map,
     (team, keep_outs): (&Team, &KeepOuts),
-    outcome: Outcome,
+    plan: Plan,
     report: &FleetReport,
-) -> anyhow::Result<()> {
-    let Some(plan) = outcome.plan else { return Ok(()) };
+) -> PlanFile {
     let stated = Stated {
         map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
         solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -152,21 +160,25 @@ fn save(
         comp_time_ms: Some(report.elapsed_ms),
         ..Stated::default()
     };
-    let file = PlanFile {
+    PlanFile {
         lattice: Some(map.lattice()),
-        map: Some(map),
+        map: Some(map.clone()),
         starts: Some(team.starts().to_vec()),
         targets: Some(team.targets().to_vec()),
         bodies: team.bodies().clone(),
         keep_outs: keep_outs.all().to_vec(),
         stated,
         ..PlanFile::new(plan)
-    };
-    for (path, &format) in args.save.iter().zip(formats) {
-        let text = file.write(format).map_err(|error| error.in_file(path))?;
-        files::write_atomically(path, text.as_bytes())?;
     }
-    Ok(())
+}
+
+/// The first robot whose target lies in another part of the floor.
+fn cut_off(map: &Map, team: &Team) -> Option<String> {
+    let floor = Floor::new(map);
+    let mut tasks = team.starts().iter().zip(team.targets());
+    let apart = |(&from, &to): (&Cell, &Cell)| !floor.connected(floor.number(from), floor.number(to));
+    let robot = tasks.position(apart)?;
+    Some(format!("robot {robot} has no way from {} to {}", team.starts()[robot], team.targets()[robot]))
 }
 
 /// Only one format holds all that a plan has to keep.
@@ -193,8 +205,8 @@ fn report(args: &FleetArgs, map: &Map, team: &Team, outcome: &Outcome, elapsed_m
     FleetReport {
         robots: team.robots(),
         solved: outcome.plan.is_some(),
-        sum_of_costs: outcome.plan.as_ref().map(activecell::Plan::sum_of_costs),
-        makespan: outcome.plan.as_ref().map(activecell::Plan::makespan),
+        sum_of_costs: outcome.plan.as_ref().map(Plan::sum_of_costs),
+        makespan: outcome.plan.as_ref().map(Plan::makespan),
         lower_bound: outcome.lower_bound,
         first_solution_ms: outcome.history.first().map(|found| found.ms),
         elapsed_ms,
@@ -219,13 +231,14 @@ pub(super) fn peak_bytes() -> Option<u64> {
     Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024)
 }
 
-fn text(report: &FleetReport) -> String {
+fn text(report: &FleetReport, cut_off: Option<String>) -> String {
     let FleetReport { lower_bound, .. } = report;
     let robots = counted(report.robots as u64, "robot");
     let ended = format!("after {}, {}", duration(report.elapsed_ms), ending(report));
     let (Some(cost), Some(makespan)) = (report.sum_of_costs, report.makespan) else {
         let what = if report.ending == "exhausted" { "no plan exists" } else { "no plan found" };
-        return format!("fleet: {robots}, {what}\nended          {ended}\n");
+        let why = cut_off.map_or(String::new(), |why| format!(": {why}"));
+        return format!("fleet: {robots}, {what}{why}\nended          {ended}\n");
     };
     let ratio = match (cost, *lower_bound) {
         (0, _) | (_, 0) => String::new(),

@@ -1,7 +1,7 @@
 //! The robots of a group, from the rows of a scenario or by chance.
 
 use super::group::Group;
-use super::scen;
+use super::{counted, scen};
 use crate::args::WrongArgument;
 use activecell::{Bodies, Error, Map, Team};
 use anyhow::Context;
@@ -21,7 +21,7 @@ pub(super) fn of_scenario(
     let rows = robots.unwrap_or(tasks.len());
     if rows > tasks.len() {
         let (path, all) = (path.display(), tasks.len());
-        let message = format!("{path} has {all} rows, too few for {rows} robots; take fewer robots");
+        let message = format!("{path} has {all} rows, too few for {}", counted(rows as u64, "robot"));
         return Err(WrongArgument(message).into());
     }
     let tasks = &tasks[..rows];

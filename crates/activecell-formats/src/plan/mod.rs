@@ -205,6 +205,18 @@ pub fn is_plan(bytes: &[u8]) -> bool {
     bytes.starts_with(b"Agent ") || bytes.windows(solution.len()).any(|window| window == solution)
 }
 
+/// Adds a cell to those of a plan; refused if they are too many, or the memory is not there.
+fn push(cells: &mut Vec<Cell>, cell: Cell) -> Result<(), String> {
+    if cells.len() == MAX_PLAN_CELLS {
+        return Err(format!("more than the {MAX_PLAN_CELLS} cells that a plan may have; split the plan"));
+    }
+    if cells.try_reserve(1).is_err() {
+        return Err("no memory is left for more cells; split the plan".to_owned());
+    }
+    cells.push(cell);
+    Ok(())
+}
+
 /// Memory for all cells of a plan, none if there are no robots; refused if they are too many, before it is taken.
 fn room(robots: usize, steps: usize) -> Result<Vec<Cell>, Error> {
     if robots == 0 {

@@ -1,7 +1,7 @@
 //! The text that MAPF tools share, as LaCAM and pibt2 write it and mapf-visualizer shows it (K. Okumura).
 
 use super::scan::Scan;
-use super::{MAX_PLAN_CELLS, PlanFile, Stated};
+use super::{PlanFile, Stated, push};
 use crate::error::{Error, quoted_bytes};
 use crate::lines::Lines;
 use activecell::{Cell, Lattice, Plan};
@@ -139,12 +139,8 @@ fn read_steps(first: Scan<'_>, lines: Lines<'_>, header: &Header) -> Result<Plan
         scan.expect(b':')?;
         let before = cells.len();
         while !scan.is_done() {
-            if cells.len() == MAX_PLAN_CELLS {
-                let reason =
-                    format!("more than the {MAX_PLAN_CELLS} cells that a plan may have; split the plan");
-                return Err(scan.error(reason));
-            }
-            cells.push(scan.cell()?);
+            let cell = scan.cell()?;
+            push(&mut cells, cell).map_err(|reason| scan.error(reason))?;
             pass_task(&mut scan)?;
             if !scan.is_done() {
                 scan.expect(b',')?;
