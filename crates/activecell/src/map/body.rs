@@ -4,7 +4,7 @@ use super::{BitPlane, Map};
 use crate::lattice::Cell;
 
 impl Map {
-    /// The map as a body of this radius sees it: its centre may be where the whole [block](Lattice::block) is free. A
+    /// The map as a body of this radius sees it: its centre may be where the whole [block](crate::Lattice::block) is free. A
     /// robot of one cell moves on it as the body does on the map.
     ///
     /// Two sweeps, each with the half of the neighbours that lie before a cell (Rosenfeld and Pfaltz, *Sequential
