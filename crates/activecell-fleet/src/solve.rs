@@ -347,8 +347,12 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
 
     /// Looks whether the search's plan is better than the best. It has less loss than those before, but may cost more.
     fn look(&mut self) {
-        if let Some(plan) = self.search.plan() {
-            self.take(plan.sum_of_costs(), || plan);
+        let Some(plan) = self.search.plan() else { return };
+        let sum_of_costs = plan.sum_of_costs();
+        match &mut self.best {
+            // Of plans that cost the same, the one of less loss.
+            Some((best, kept)) if *best == sum_of_costs => *kept = plan,
+            _ => self.take(sum_of_costs, || plan),
         }
     }
 
