@@ -1,6 +1,7 @@
 # make demo    build, route a robot across a floor plan on both lattices with all three rules
 # make test    format, lints, documentation, all tests
-# make deps    what only root can install (optional; nothing so far)
+# make tools   what the proofs of the hardware run with (yosys, z3), into .venv; make test calls it
+# make deps    what only root can install, for more of those proofs: GHDL, Icarus, ARM gcc, QEMU, cppcheck (optional)
 # make docs    the pictures of the documents, drawn anew
 # make bench   every method beside its peers, 20 minutes (QUICK=1: a few); writes docs/benchmarks.md
 # make bench-fleet  groups of robots for 30 s an instance, 15 minutes (QUICK=1: 1); writes docs/benchmarks-fleet.md
@@ -9,8 +10,9 @@
 
 ACTIVECELL := $(or $(CARGO_TARGET_DIR),target)/release/activecell
 OFFICE := maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m
+DEBIAN := iverilog ghdl gcc-arm-none-eabi qemu-system-arm cppcheck
 
-.PHONY: demo test deps docs bench bench-fleet count clean
+.PHONY: demo test tools deps docs bench bench-fleet count clean
 
 demo: $(ACTIVECELL)
 	@mkdir -p out
@@ -42,14 +44,22 @@ $(ACTIVECELL): FORCE
 	@cargo build --release --quiet -p activecell-cli
 FORCE:
 
-test:
+test: tools
 	cargo fmt --all --check
 	cargo clippy --workspace --all-targets --quiet -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --quiet
 	cargo test --workspace -- --nocapture --test-threads 2
 
+tools: .venv/tools-done
+
+.venv/tools-done: hardware/requirements.txt
+	@echo "installing yosys and z3 into .venv (200 MB) …"
+	@python3 -m venv .venv && .venv/bin/pip install --quiet --disable-pip-version-check -r $< \
+	    && touch $@ || echo "not installed: tests that need them will say that they did not run"
+
 deps:
-	@echo "nothing to install: all tests run with the Rust toolchain alone"
+	@if [ "$$(id -u)" = 0 ]; then apt-get update -qq && apt-get install -y -qq --no-install-recommends $(DEBIAN); \
+	    else echo "as root: apt-get install $(DEBIAN)"; fi
 
 docs: $(ACTIVECELL)
 	$(ACTIVECELL) route $(OFFICE) --draw never --picture docs/pictures/office-square.png -q > /dev/null
@@ -81,4 +91,4 @@ count:
 
 clean:
 	cargo clean
-	rm -rf out bench/out bench/target bench/.venv bench/node_modules
+	rm -rf out .venv bench/out bench/target bench/.venv bench/node_modules

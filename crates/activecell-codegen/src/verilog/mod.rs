@@ -1,0 +1,5 @@
+//! Verilog-2005.
+
+mod circuit;
+
+pub use circuit::module;

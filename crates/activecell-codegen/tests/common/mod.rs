@@ -1,0 +1,67 @@
+//! The tools that the proofs run: where they are, and a loud word where one is missing.
+
+#![allow(dead_code, reason = "each test uses some of these")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// The folder of the workspace.
+pub(crate) fn root() -> &'static Path {
+    Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+}
+
+/// The full path of a program: from the project's own environment (`make tools`), else from the system's.
+pub(crate) fn program(name: &str) -> Option<PathBuf> {
+    let own = root().join(".venv/bin");
+    let own = [own.join(format!("yowasp-{name}")), own.join(name)];
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let system = std::env::split_paths(&path).map(|folder| folder.join(name));
+    own.into_iter().chain(system.collect::<Vec<_>>()).find(|file| file.is_file())
+}
+
+/// The programs, or `None` after saying loudly that a test does not run, and how it would.
+pub(crate) fn programs<const N: usize>(test: &str, names: [&str; N]) -> Option<[PathBuf; N]> {
+    let found = names.map(program);
+    let missing: Vec<&str> =
+        names.into_iter().zip(&found).filter(|(_, file)| file.is_none()).map(|(name, _)| name).collect();
+    if missing.is_empty() {
+        return Some(found.map(Option::unwrap_or_default));
+    }
+    eprintln!(
+        "NOT RUN: {test}: {} missing; `make tools` installs yosys and z3, `make deps` the others",
+        missing.join(", ")
+    );
+    None
+}
+
+/// A fresh folder for a test, within the target folder. Programs are run in it with relative paths: those that are
+/// compiled to WebAssembly see nothing else.
+pub(crate) fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("the target folder can be written");
+    folder
+}
+
+/// A command to be run in a folder.
+pub(crate) fn command(program: &Path, folder: &Path) -> Command {
+    let mut command = Command::new(program);
+    command.current_dir(folder).env("YOWASP_CACHE_DIR", root().join("target/yowasp"));
+    command
+}
+
+/// Runs it and gives its output.
+///
+/// # Panics
+/// If it cannot be run or fails, with what it said.
+pub(crate) fn run(command: &mut Command) -> String {
+    let Output { status, stdout, stderr } = command.output().expect("a program that was found can be run");
+    let text = String::from_utf8_lossy(&stdout).into_owned();
+    assert!(status.success(), "{command:?} failed:\n{text}{}", String::from_utf8_lossy(&stderr));
+    text
+}
+
+/// Runs a script of yosys in a folder.
+pub(crate) fn yosys(yosys: &Path, folder: &Path, script: &str) -> String {
+    run(command(yosys, folder).args(["-q", "-p", script]))
+}
