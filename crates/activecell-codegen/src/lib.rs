@@ -13,4 +13,7 @@
 
 pub mod circuits;
 pub mod logic;
+mod source;
 pub mod verilog;
+
+pub use source::SourceFile;
