@@ -11,6 +11,7 @@
 //! assert!(text.contains("module decide_square"));
 //! ```
 
+pub mod c;
 pub mod circuits;
 pub mod logic;
 pub mod model;
