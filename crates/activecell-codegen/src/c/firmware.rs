@@ -66,6 +66,7 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
     }
     let mut files = vec![
         SourceFile::new("include/activecell.h", header(map, program)),
+        SourceFile::new("src/ac_bit.h", include_str!("templates/ac_bit.h")),
         SourceFile::new("src/ac_rule.c", rule(map.lattice())),
         SourceFile::new("src/ac_learning.c", learning(map.lattice())),
         SourceFile::new("src/ac_wave.c", wave(map.lattice())),
@@ -218,6 +219,7 @@ fn inputs() -> String {
 
 fn rule(lattice: Lattice) -> String {
     let [right, down] = lattice::neighbours(lattice);
+    let [ring1, ahead, between] = lattice::window(lattice);
     let (parities, parity) = if lattice == Lattice::Hex { ("2", "cell.y & 1U") } else { ("1", "0") };
     fill(
         include_str!("templates/ac_rule.c"),
@@ -231,7 +233,10 @@ fn rule(lattice: Lattice) -> String {
             ("RIGHT", &right),
             ("DOWN", &down),
             ("SLICES", &lattice::slices(lattice)),
-            ("WINDOW", &lattice::window(lattice)),
+            ("JOIN_FUNCTION", &lattice::join(lattice)),
+            ("RING1", &ring1),
+            ("AHEAD", &ahead),
+            ("BETWEEN", &between),
             ("NAME", lattice.name()),
             ("ONES", &super::circuit::number((1 << lattice.degree()) - 1)),
         ],

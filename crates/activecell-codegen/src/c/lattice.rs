@@ -1,21 +1,21 @@
 //! What the lattice decides in the C text: offsets, sectors, orders, all read from the core.
 
-use super::circuit::{function, number};
+use super::circuit::function;
 use crate::circuits;
 use crate::logic::{Circuit, Expr};
 use activecell::rule::Sector;
 use activecell::{Cell, Dir, Lattice};
 
-/// Each input of [`circuits::sector`] as a comparison in C.
+/// Each input of [`circuits::sector`] in C.
 const COMPARISONS: [(&str, [&str; 2]); 8] = [
-    ("is_left", ["target.x < from.x", "there < here"]),
-    ("is_right", ["target.x > from.x", "there > here"]),
-    ("is_above", ["target.y < from.y"; 2]),
-    ("is_below", ["target.y > from.y"; 2]),
-    ("is_wide", ["", "across > down"]),
-    ("is_level", ["", "across == down"]),
-    ("is_flat", ["", "across > (3U * down)"]),
-    ("is_even", ["", "across == (3U * down)"]),
+    ("is_left", ["less(target.x, from.x)", "less(there, here)"]),
+    ("is_right", ["less(from.x, target.x)", "less(here, there)"]),
+    ("is_above", ["less(target.y, from.y)"; 2]),
+    ("is_below", ["less(from.y, target.y)"; 2]),
+    ("is_wide", ["", "less(down, across)"]),
+    ("is_level", ["", "ac_bit(across == down)"]),
+    ("is_flat", ["", "less(thrice, across)"]),
+    ("is_even", ["", "ac_bit(across == thrice)"]),
 ];
 
 /// The rows of the window, from two above the cell on.
@@ -38,7 +38,7 @@ pub(super) fn geometry(lattice: Lattice) -> String {
     let inputs = circuits::sector(lattice).inputs;
     let comparisons = inputs.iter().map(|input| {
         let (_, text) = COMPARISONS.iter().find(|(name, _)| *name == input.name).expect("a known comparison");
-        format!("\n        ({}) ? 1U : 0U", text[lattice as usize])
+        format!("\n        {}", text[lattice as usize])
     });
     template.replace("@COMPARISONS@", &comparisons.collect::<Vec<_>>().join(","))
 }
@@ -91,36 +91,34 @@ pub(super) fn slices(lattice: Lattice) -> String {
     rows.collect()
 }
 
-/// The lanes of the window, gathered from those rows: the neighbours, what lies ahead of them, what between them.
-pub(super) fn window(lattice: Lattice) -> String {
-    let mut terms: Vec<(usize, i32, u32)> = Vec::new();
-    for group in 0..3 {
-        for dir in lattice.dirs() {
-            let offset = match group {
-                0 => Offset::of_dir(lattice, dir),
-                1 => Offset::of(|cell| lattice.ring2(cell, 2 * dir.0)),
-                _ => Offset::of(|cell| lattice.ring2(cell, 2 * dir.0 + 1)),
-            };
-            let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
-            assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
-            let lane = 8 * group + i32::from(dir.0);
-            let (row, shift) = ((offset.rows + 2) as usize, offset.columns[0] + 2 - lane);
-            match terms.iter_mut().find(|term| (term.0, term.1) == (row, shift)) {
-                Some(term) => term.2 |= 1 << lane,
-                None => terms.push((row, shift, 1 << lane)),
-            }
-        }
-    }
-    let terms = terms.into_iter().map(|(row, shift, lanes)| {
-        let row = ROWS[row];
-        let shifted = match shift {
-            0 => row.into(),
-            1.. => format!("({row} >> {shift}U)"),
-            _ => format!("({row} << {}U)", -shift),
-        };
-        format!("({shifted} & {})", number(lanes))
+/// The lanes of the window, gathered from those rows: a group of them.
+fn lanes(lattice: Lattice, place: impl Fn(Cell, Dir) -> Cell) -> String {
+    let lanes = lattice.dirs().map(|dir| {
+        let offset = Offset::of(|cell| place(cell, dir));
+        let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
+        assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
+        format!("at({}, {}U)", ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2)
     });
-    terms.collect::<Vec<_>>().join(" |\n        ")
+    lanes.collect::<Vec<_>>().join(", ")
+}
+
+/// The three groups of lanes of the window: the neighbours, what lies ahead of them, what between them.
+pub(super) fn window(lattice: Lattice) -> [String; 3] {
+    [
+        lanes(lattice, |cell, dir| lattice.neighbour(cell, dir)),
+        lanes(lattice, |cell, dir| lattice.ring2(cell, 2 * dir.0)),
+        lanes(lattice, |cell, dir| lattice.ring2(cell, 2 * dir.0 + 1)),
+    ]
+}
+
+/// A function that puts lanes side by side.
+pub(super) fn join(lattice: Lattice) -> String {
+    let mut circuit = Circuit::new("lanes", "Lanes side by side.");
+    let lane = |dir: Dir| (lattice.dir_name(dir).to_lowercase(), dir);
+    let names = lattice.dirs().map(lane);
+    let lanes = names.map(|(name, dir)| circuit.input(&name, 1, &format!("lane {}", dir.0))).collect();
+    circuit.output("lanes_of_all", Expr::Join(lanes), "in one word");
+    function(&circuit)
 }
 
 /// From a signal with one lane set to the number of the lane.

@@ -2,6 +2,7 @@
  * The control unit of the motors, and the player of programs.
  */
 #include "activecell.h"
+#include "ac_bit.h"
 
 @CONTROL_FUNCTION@
 uint32_t ac_control_step(uint32_t state, uint32_t inputs)

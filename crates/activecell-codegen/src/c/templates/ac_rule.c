@@ -4,14 +4,26 @@
  * After Alzoubi and Miraz, Enhancing Robot Navigation Efficiency Using Cellular Automata with Active Cells.
  */
 #include "activecell.h"
+#include "ac_bit.h"
 
 @SECTOR_FUNCTION@
 @DECIDE_FUNCTION@
 @LANE_FUNCTION@
+@JOIN_FUNCTION@
 /* How far two numbers are apart. */
 static uint32_t apart(uint32_t a, uint32_t b)
 {
-    return (a < b) ? (b - a) : (a - b);
+    uint32_t difference = a - b;
+    if (a < b) {
+        difference = b - a;
+    }
+    return difference;
+}
+
+/* 1 if the first of two numbers is less. They are below 2^31. */
+static uint32_t less(uint32_t a, uint32_t b)
+{
+    return (a - b) >> 31U;
 }
 
 @GEOMETRY@
@@ -49,13 +61,23 @@ static uint32_t slice(const uint32_t *row, uint32_t bit)
     return (row[word] >> shift) | ((row[word + 1U] << 1U) << (31U - shift));
 }
 
+/* One of them. */
+static uint32_t at(uint32_t row, uint32_t bit)
+{
+    return (row >> bit) & 1U;
+}
+
 uint32_t ac_window(const ac_map *map, ac_cell cell)
 {
     const uint32_t words = map->words;
     /* Two rows above the cell, as the map begins with two rows of obstacles. */
     const uint32_t *const row = &map->rows[cell.y * words];
 @SLICES@
-    return @WINDOW@;
+    const uint32_t ring1 = ac_lanes(@RING1@);
+    const uint32_t ahead = ac_lanes(@AHEAD@);
+    const uint32_t between = ac_lanes(@BETWEEN@);
+
+    return ring1 | (ahead << 8U) | (between << 16U);
 }
 
 ac_move ac_decide(uint32_t window, uint32_t sector, uint32_t near)
@@ -73,7 +95,7 @@ ac_move ac_next(const ac_map *map, ac_cell cell, ac_cell target)
         if (distance == 0U) {
             move = AC_ARRIVED;
         } else {
-            move = ac_decide(ac_window(map, cell), ac_sector(cell, target), (distance == 1U) ? 1U : 0U);
+            move = ac_decide(ac_window(map, cell), ac_sector(cell, target), ac_bit(distance == 1U));
         }
     }
     return move;

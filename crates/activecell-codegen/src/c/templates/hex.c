@@ -18,5 +18,6 @@ uint32_t ac_sector(ac_cell from, ac_cell target)
     const uint32_t there = centre(target);
     const uint32_t across = apart(here, there);
     const uint32_t down = apart(from.y, target.y);
+    const uint32_t thrice = 3U * down;
     return ac_sector_hex(@COMPARISONS@);
 }
