@@ -77,18 +77,34 @@ pub(super) fn list(numbers: impl Iterator<Item = i32>) -> String {
     format!("{{ {} }}", numbers.map(|number| format!("{number}U")).collect::<Vec<_>>().join(", "))
 }
 
-/// Where the five rows of the window are read. In odd rows of hexagons the rows beside lie a column farther right.
+/// The five rows of the window, each from the bit two to the left of the cell on. In odd rows of hexagons the rows beside
+/// lie a column farther right.
 pub(super) fn slices(lattice: Lattice) -> String {
-    let rows = ROWS.iter().enumerate().map(|(place, name)| {
-        let row = match place {
-            0 => "row".into(),
-            1 => "&row[words]".into(),
-            _ => format!("&row[{place}U * words]"),
+    let place = |name: &str, bit: &str| {
+        format!(
+            "    const uint32_t *const {name} = &map->rows[(cell.y * words) + ({bit} >> 5U)];\n    \
+             const uint32_t {name}_right = {bit} & 31U;\n    \
+             const uint32_t {name}_left = 31U - {name}_right;\n"
+        )
+    };
+    let mut text = place("even", "cell.x");
+    if lattice == Lattice::Hex {
+        text += "    /* Beside an odd row the rows lie half a cell to the left. */\n";
+        text += "    const uint32_t beside = (uint32_t)cell.x + (cell.y & 1U);\n";
+        text += &place("odd", "beside");
+    }
+    for (row, name) in ROWS.iter().enumerate() {
+        let base = if lattice == Lattice::Hex && row % 2 == 1 { "odd" } else { "even" };
+        let [word, next] = match row {
+            0 => ["0U".to_owned(), "1U".to_owned()],
+            1 => ["words".to_owned(), "words + 1U".to_owned()],
+            _ => [format!("{row}U * words"), format!("({row}U * words) + 1U")],
         };
-        let bit = if lattice == Lattice::Hex && place % 2 == 1 { "cell.x + (cell.y & 1U)" } else { "cell.x" };
-        format!("    const uint32_t {name} = slice({row}, {bit});\n")
-    });
-    rows.collect()
+        text += &format!(
+            "    const uint32_t {name} = ({base}[{word}] >> {base}_right) | (({base}[{next}] << 1U) << {base}_left);\n"
+        );
+    }
+    text
 }
 
 /// The lanes of the window, gathered from those rows: a group of them.

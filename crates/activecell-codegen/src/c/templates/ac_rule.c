@@ -53,15 +53,7 @@ bool ac_is_free(const ac_map *map, ac_cell cell)
     return is_free;
 }
 
-/* The cells of a row from a bit on, in the lowest bits; at least five. */
-static uint32_t slice(const uint32_t *row, uint32_t bit)
-{
-    const uint32_t word = bit >> 5U;
-    const uint32_t shift = bit & 31U;
-    return (row[word] >> shift) | ((row[word + 1U] << 1U) << (31U - shift));
-}
-
-/* One of them. */
+/* A cell of a row. */
 static uint32_t at(uint32_t row, uint32_t bit)
 {
     return (row >> bit) & 1U;
@@ -70,8 +62,7 @@ static uint32_t at(uint32_t row, uint32_t bit)
 uint32_t ac_window(const ac_map *map, ac_cell cell)
 {
     const uint32_t words = map->words;
-    /* Two rows above the cell, as the map begins with two rows of obstacles. */
-    const uint32_t *const row = &map->rows[cell.y * words];
+    /* From two rows above and two columns to the left, as the map begins with two of obstacles. */
 @SLICES@
     const uint32_t ring1 = ac_lanes(@RING1@);
     const uint32_t ahead = ac_lanes(@AHEAD@);
