@@ -224,7 +224,6 @@ fn rule(lattice: Lattice) -> String {
     fill(
         include_str!("templates/ac_rule.c"),
         &[
-            ("SECTOR_FUNCTION", &function(&circuits::sector(lattice))),
             ("DECIDE_FUNCTION", &function(&circuits::decision(lattice))),
             ("LANE_FUNCTION", &lattice::lane_number(lattice)),
             ("GEOMETRY", &lattice::geometry(lattice)),
@@ -233,7 +232,6 @@ fn rule(lattice: Lattice) -> String {
             ("RIGHT", &right),
             ("DOWN", &down),
             ("SLICES", &lattice::slices(lattice)),
-            ("JOIN_FUNCTION", &lattice::join(lattice)),
             ("RING1", &ring1),
             ("AHEAD", &ahead),
             ("BETWEEN", &between),

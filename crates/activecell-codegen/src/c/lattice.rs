@@ -6,18 +6,6 @@ use crate::logic::{Circuit, Expr};
 use activecell::rule::Sector;
 use activecell::{Cell, Dir, Lattice};
 
-/// Each input of [`circuits::sector`] in C.
-const COMPARISONS: [(&str, [&str; 2]); 8] = [
-    ("is_left", ["less(target.x, from.x)", "less(there, here)"]),
-    ("is_right", ["less(from.x, target.x)", "less(here, there)"]),
-    ("is_above", ["less(target.y, from.y)"; 2]),
-    ("is_below", ["less(from.y, target.y)"; 2]),
-    ("is_wide", ["", "less(down, across)"]),
-    ("is_level", ["", "ac_bit(across == down)"]),
-    ("is_flat", ["", "less(thrice, across)"]),
-    ("is_even", ["", "ac_bit(across == thrice)"]),
-];
-
 /// The rows of the window, from two above the cell on.
 const ROWS: [&str; 5] = ["far_above", "above", "level", "below", "far_below"];
 
@@ -29,18 +17,40 @@ pub(super) const fn planes(lattice: Lattice) -> u32 {
     }
 }
 
-/// Distances and sectors.
+/// Distances and bearings.
 pub(super) fn geometry(lattice: Lattice) -> String {
     let template = match lattice {
         Lattice::Square => include_str!("templates/square.c"),
         Lattice::Hex => include_str!("templates/hex.c"),
     };
-    let inputs = circuits::sector(lattice).inputs;
-    let comparisons = inputs.iter().map(|input| {
-        let (_, text) = COMPARISONS.iter().find(|(name, _)| *name == input.name).expect("a known comparison");
-        format!("\n        {}", text[lattice as usize])
-    });
-    template.replace("@COMPARISONS@", &comparisons.collect::<Vec<_>>().join(","))
+    template.replace("@SECTOR_TABLE@", &sectors(lattice))
+}
+
+/// The sector for each slant on hexagons (see there), for level, below, above, and for straight, right, left: what the
+/// circuit says for the comparisons that these mean.
+fn sectors(lattice: Lattice) -> String {
+    let circuit = circuits::sector(lattice);
+    let slants: &[&[&str]] = match lattice {
+        Lattice::Square => &[&[]],
+        Lattice::Hex => &[&[], &["is_level"], &["is_wide"], &["is_wide", "is_even"], &["is_wide", "is_flat"]],
+    };
+    let mut text = String::new();
+    for slant in slants {
+        let rows = [None, Some("is_below"), Some("is_above")].map(|vertical| {
+            let sectors = [None, Some("is_right"), Some("is_left")].map(|horizontal| {
+                let holds =
+                    |name: &str| slant.contains(&name) || [vertical, horizontal].contains(&Some(name));
+                let inputs: Vec<u32> = circuit.inputs.iter().map(|input| holds(&input.name).into()).collect();
+                circuit.evaluate(&inputs)[0] as i32
+            });
+            list(sectors.into_iter())
+        });
+        text += &match lattice {
+            Lattice::Square => rows.map(|row| format!("        {row},\n")).concat(),
+            Lattice::Hex => format!("        {{ {} }},\n", rows.join(", ")),
+        };
+    }
+    text
 }
 
 /// Columns to the right of a cell, in an even and an odd row, and rows down.
@@ -87,14 +97,14 @@ pub(super) fn slices(lattice: Lattice) -> String {
              const uint32_t {name}_left = 31U - {name}_right;\n"
         )
     };
-    let mut text = place("even", "cell.x");
+    let mut text = place("here", "cell.x");
     if lattice == Lattice::Hex {
         text += "    /* Beside an odd row the rows lie half a cell to the left. */\n";
-        text += "    const uint32_t beside = (uint32_t)cell.x + (cell.y & 1U);\n";
-        text += &place("odd", "beside");
+        text += "    const uint32_t aside = (uint32_t)cell.x + (cell.y & 1U);\n";
+        text += &place("beside", "aside");
     }
     for (row, name) in ROWS.iter().enumerate() {
-        let base = if lattice == Lattice::Hex && row % 2 == 1 { "odd" } else { "even" };
+        let base = if lattice == Lattice::Hex && row % 2 == 1 { "beside" } else { "here" };
         let [word, next] = match row {
             0 => ["0U".to_owned(), "1U".to_owned()],
             1 => ["words".to_owned(), "words + 1U".to_owned()],
@@ -107,15 +117,16 @@ pub(super) fn slices(lattice: Lattice) -> String {
     text
 }
 
-/// The lanes of the window, gathered from those rows: a group of them.
+/// The lanes of the window, gathered from those rows: a group of them, the last lane innermost.
 fn lanes(lattice: Lattice, place: impl Fn(Cell, Dir) -> Cell) -> String {
-    let lanes = lattice.dirs().map(|dir| {
+    let mut lanes = lattice.dirs().rev().map(|dir| {
         let offset = Offset::of(|cell| place(cell, dir));
         let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
         assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
-        format!("at({}, {}U)", ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2)
+        format!("{}, {}U", ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2)
     });
-    lanes.collect::<Vec<_>>().join(", ")
+    let last = lanes.next().unwrap_or_default();
+    lanes.fold(format!("at({last})"), |above, lane| format!("with({above}, {lane})"))
 }
 
 /// The three groups of lanes of the window: the neighbours, what lies ahead of them, what between them.
@@ -125,16 +136,6 @@ pub(super) fn window(lattice: Lattice) -> [String; 3] {
         lanes(lattice, |cell, dir| lattice.ring2(cell, 2 * dir.0)),
         lanes(lattice, |cell, dir| lattice.ring2(cell, 2 * dir.0 + 1)),
     ]
-}
-
-/// A function that puts lanes side by side.
-pub(super) fn join(lattice: Lattice) -> String {
-    let mut circuit = Circuit::new("lanes", "Lanes side by side.");
-    let lane = |dir: Dir| (lattice.dir_name(dir).to_lowercase(), dir);
-    let names = lattice.dirs().map(lane);
-    let lanes = names.map(|(name, dir)| circuit.input(&name, 1, &format!("lane {}", dir.0))).collect();
-    circuit.output("lanes_of_all", Expr::Join(lanes), "in one word");
-    function(&circuit)
 }
 
 /// From a signal with one lane set to the number of the lane.

@@ -41,7 +41,7 @@ static uint32_t decisions(void)
         window = (state >> 8U) & (ones | (ones << 8U) | (ones << 16U));
         sector = (state >> 4U) & 15U;
         sector = (sector < (2U * AC_DIRECTIONS)) ? sector : (sector - 8U);
-        sum = hashed(sum, ac_decide(window, sector, (state >> 3U) & 1U));
+        sum = hashed(sum, ac_decide(window, sector | (((state >> 3U) & 1U) << 4U)));
     }
     return sum;
 }

@@ -152,7 +152,7 @@ fn a_step_takes_few_instructions() {
         for board in [M0, M4] {
             let files = [sources(&folder), vec!["examples/startup.c".into()]].concat();
             tools.compiled(&folder, board, &files, &[]);
-            let mut count = |what: u32| {
+            let count = |what: u32| {
                 let more = [&task(from, to)[..], &[format!("-DWHAT={what}")]].concat();
                 tools.compiled(&folder, board, &["count.c".into()], &more);
                 let objects = [objects(&folder), vec!["count.o".into(), "startup.o".into()]].concat();
@@ -160,8 +160,8 @@ fn a_step_takes_few_instructions() {
                 tools.linked(&folder, board, &objects, "count.elf");
                 tools.instructions(&folder, board, "count.elf")
             };
-            let [nothing, flooded] = [0, 6].map(&mut count);
-            let mut each = |what: u32, without: usize| (count(what) - without) as f64 / 400.0;
+            let [nothing, flooded] = [0, 6].map(count);
+            let each = |what: u32, without: usize| (count(what) - without) as f64 / 400.0;
             let decision = each(1, nothing);
             let step = each(2, nothing);
             println!(

@@ -39,7 +39,7 @@ int main(void)
         state = (state * 1664525U) + 1013904223U;
         sector = (sector < (2U * AC_DIRECTIONS)) ? sector : (sector - 8U);
 #if WHAT == 1
-        move = ac_decide((state >> 8U) & (ones | (ones << 8U) | (ones << 16U)), sector, (state >> 3U) & 1U);
+        move = ac_decide((state >> 8U) & (ones | (ones << 8U) | (ones << 16U)), sector | ((state << 1U) & AC_NEAR));
 #else
         move = (state >> 8U) & (ones | (ones << 8U) | (ones << 16U) | sector);
 #endif

@@ -57,8 +57,8 @@ static void decide(void)
             window |= ((bits >> (AC_DIRECTIONS + (2U * place) + 1U)) & 1U) << (16U + place);
         }
         for (sector = 0U; sector < (2U * AC_DIRECTIONS); ++sector) {
-            (void)putchar((int)ac_decide(window, sector, 0U));
-            (void)putchar((int)ac_decide(window, sector, 1U));
+            (void)putchar((int)ac_decide(window, sector));
+            (void)putchar((int)ac_decide(window, sector | AC_NEAR));
         }
     }
 }
@@ -90,7 +90,7 @@ static void sectors(void)
         }
         for (to.y = 0U; to.y < side; ++to.y) {
             for (to.x = 0U; to.x < side; ++to.x) {
-                put(ac_sector(from, to));
+                put(ac_bearing(from, to));
                 put(ac_distance(from, to));
             }
         }
@@ -271,7 +271,7 @@ static void latency(void)
     ac_cell cell = from;
     clock_t begin = clock();
     for (round = 0U; round < rounds; ++round) {
-        sum += ac_decide((round * 2654435769U) >> (32U - 24U), round & 7U, 0U);
+        sum += ac_decide((round * 2654435769U) >> (32U - 24U), round & 7U);
     }
     put((uint32_t)(((double)(clock() - begin) / CLOCKS_PER_SEC) * 1e12 / rounds));
     begin = clock();

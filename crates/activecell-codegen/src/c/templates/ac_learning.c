@@ -93,7 +93,7 @@ static ac_move lowest(ac_learning *learning, const ac_map *map, ac_cell cell)
 {
     static const uint8_t order[@SECTORS@][AC_DIRECTIONS] = {
 @ORDER@    };
-    const uint32_t sector = ac_sector(cell, learning->target);
+    const uint32_t sector = ac_bearing(cell, learning->target) & AC_SECTOR;
     const uint32_t distance = ac_distance(cell, learning->target);
     ac_level *const own = &learning->levels[place_of(learning, cell)];
     ac_move move = AC_UNREACHABLE;

@@ -6,10 +6,8 @@
 #include "activecell.h"
 #include "ac_bit.h"
 
-@SECTOR_FUNCTION@
 @DECIDE_FUNCTION@
 @LANE_FUNCTION@
-@JOIN_FUNCTION@
 /* How far two numbers are apart. */
 static uint32_t apart(uint32_t a, uint32_t b)
 {
@@ -24,6 +22,12 @@ static uint32_t apart(uint32_t a, uint32_t b)
 static uint32_t less(uint32_t a, uint32_t b)
 {
     return (a - b) >> 31U;
+}
+
+/* Where the second of two numbers lies: 0 if they are equal, 1 if it is greater, 2 if it is less. */
+static uint32_t side(uint32_t a, uint32_t b)
+{
+    return less(a, b) + (2U * less(b, a));
 }
 
 @GEOMETRY@
@@ -59,22 +63,32 @@ static uint32_t at(uint32_t row, uint32_t bit)
     return (row >> bit) & 1U;
 }
 
+/* Lanes, each moved to the next, and a cell of a row in the lowest. */
+static uint32_t with(uint32_t lanes, uint32_t row, uint32_t bit)
+{
+    return (lanes << 1U) | at(row, bit);
+}
+
 uint32_t ac_window(const ac_map *map, ac_cell cell)
 {
     const uint32_t words = map->words;
     /* From two rows above and two columns to the left, as the map begins with two of obstacles. */
 @SLICES@
-    const uint32_t ring1 = ac_lanes(@RING1@);
-    const uint32_t ahead = ac_lanes(@AHEAD@);
-    const uint32_t between = ac_lanes(@BETWEEN@);
+    const uint32_t ring1 = @RING1@;
+    const uint32_t ahead = @AHEAD@;
+    const uint32_t between = @BETWEEN@;
 
     return ring1 | (ahead << 8U) | (between << 16U);
 }
 
-ac_move ac_decide(uint32_t window, uint32_t sector, uint32_t near)
+ac_move ac_decide(uint32_t window, uint32_t bearing)
 {
-    const ac_decide_@NAME@_outputs outputs =
-        ac_decide_@NAME@(window & @ONES@, (window >> 8U) & @ONES@, (window >> 16U) & @ONES@, sector, near);
+    const ac_decide_@NAME@_outputs outputs = ac_decide_@NAME@(
+        window & @ONES@,
+        (window >> 8U) & @ONES@,
+        (window >> 16U) & @ONES@,
+        bearing & AC_SECTOR,
+        bearing & AC_NEAR);
     return (outputs.enclosed != 0U) ? AC_ENCLOSED : ac_lane_number(outputs.go);
 }
 
@@ -82,11 +96,9 @@ ac_move ac_next(const ac_map *map, ac_cell cell, ac_cell target)
 {
     ac_move move = AC_OUTSIDE;
     if ((cell.x < map->width) && (cell.y < map->height)) {
-        const uint32_t distance = ac_distance(cell, target);
-        if (distance == 0U) {
-            move = AC_ARRIVED;
-        } else {
-            move = ac_decide(ac_window(map, cell), ac_sector(cell, target), ac_bit(distance == 1U));
+        move = AC_ARRIVED;
+        if ((cell.x != target.x) || (cell.y != target.y)) {
+            move = ac_decide(ac_window(map, cell), ac_bearing(cell, target));
         }
     }
     return move;

@@ -65,8 +65,14 @@ bool ac_is_free(const ac_map *map, ac_cell cell);
 
 /* ---- The published rule ---- */
 
-/** Where the target lies: one of @SECTORS@ sectors, clockwise from the top. Without meaning at the target itself. */
-uint32_t ac_sector(ac_cell from, ac_cell target);
+/**
+ * Where the target lies: one of @SECTORS@ sectors, clockwise from the top, and AC_NEAR if it is a neighbour. Without
+ * meaning at the target itself.
+ */
+uint32_t ac_bearing(ac_cell from, ac_cell target);
+
+#define AC_SECTOR 15U /**< The bits of a bearing that are the sector. */
+#define AC_NEAR 16U   /**< The bit that says that the target is a neighbour. */
 
 /**
  * The obstacles around a cell of the map, a lane a neighbour: lanes 0 to @LAST@ the neighbours, lanes 8 to @LAST_AHEAD@ the
@@ -74,11 +80,8 @@ uint32_t ac_sector(ac_cell from, ac_cell target);
  */
 uint32_t ac_window(const ac_map *map, ac_cell cell);
 
-/**
- * The published rule: a direction, or AC_ENCLOSED. The window is laid out as ac_window does. `near` is 1 if the
- * target is a neighbour, else 0.
- */
-ac_move ac_decide(uint32_t window, uint32_t sector, uint32_t near);
+/** The published rule: a direction, or AC_ENCLOSED. The window is that of ac_window, the bearing that of ac_bearing. */
+ac_move ac_decide(uint32_t window, uint32_t bearing);
 
 /**
  * One step of the published rule on the map: a direction, AC_ARRIVED, AC_ENCLOSED, or AC_OUTSIDE. It has no memory,
