@@ -49,8 +49,11 @@ fn unused(circuit: &Circuit) -> String {
         collect(&wire.expr, &mut signals);
     }
     let inputs = circuit.inputs.iter().enumerate();
-    let unused = inputs.filter(|(place, _)| !signals.contains(&Signal(*place)));
-    unused.map(|(_, port)| format!("    (void){}; /* makes no difference */\n", port.name)).collect()
+    let mut text = String::new();
+    for (_, port) in inputs.filter(|(place, _)| !signals.contains(&Signal(*place))) {
+        text += &format!("    (void){}; /* makes no difference */\n", port.name);
+    }
+    text
 }
 
 /// The signals that a formula reads.
@@ -216,7 +219,7 @@ fn formula(circuit: &Circuit, expr: &Expr) -> String {
         joined(&parts.iter().map(|part| formula(circuit, part)).collect::<Vec<_>>(), operator)
     };
     match expr {
-        _ if is_question(circuit, expr) => format!("ac_bit{}", bracketed(&condition(circuit, expr))),
+        _ if is_question(expr) => format!("ac_bit{}", bracketed(&condition(circuit, expr))),
         Expr::Signal(signal) => name(signal).clone(),
         Expr::Const { value, .. } => number(*value),
         Expr::Not(inner) => {
@@ -240,11 +243,11 @@ fn formula(circuit: &Circuit, expr: &Expr) -> String {
 }
 
 /// Whether it is better asked with `&&` and `||` than computed with `&` and `|`: it looks into a signal of many bits.
-fn is_question(circuit: &Circuit, expr: &Expr) -> bool {
+fn is_question(expr: &Expr) -> bool {
     match expr {
         Expr::Bit(..) | Expr::Any(_) => true,
-        Expr::Not(inner) => is_question(circuit, inner),
-        Expr::And(parts) | Expr::Or(parts) => parts.iter().any(|part| is_question(circuit, part)),
+        Expr::Not(inner) => is_question(inner),
+        Expr::And(parts) | Expr::Or(parts) => parts.iter().any(is_question),
         _ => false,
     }
 }

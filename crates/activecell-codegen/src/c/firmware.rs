@@ -38,7 +38,8 @@ pub fn footprint(map: &Map) -> Footprint {
 /// `main` and for a Cortex-M board. The lattice is that of the map.
 ///
 /// # Errors
-/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, and segments without a tick.
+/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, programs without a segment, and segments without
+/// a tick.
 ///
 /// ```
 /// use activecell::{Lattice, Map};
@@ -55,6 +56,13 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
             name: "the longer side of the map in cells",
             value: side.into(),
             allowed: "at most 65535 for firmware; use larger cells or a part of the map",
+        });
+    }
+    if program.is_some_and(<[Segment]>::is_empty) {
+        return Err(Error::BadValue {
+            name: "number of segments of the program",
+            value: 0.0,
+            allowed: "at least 1; leave the program out if the robot is there already",
         });
     }
     if program.is_some_and(|segments| segments.iter().any(|segment| segment.ticks == 0)) {
@@ -161,7 +169,7 @@ fn header(map: &Map, program: Option<&[Segment]>) -> String {
             " *   ac_program.c   the program that this was generated from\n",
             format!(
                 "\n{}/** The program M. */\nextern const ac_segment ac_program[AC_PROGRAM_COUNT];\n",
-                define("AC_PROGRAM_COUNT", segments.len().max(1) as u64, "Segments of the program.")
+                define("AC_PROGRAM_COUNT", segments.len() as u64, "Segments of the program.")
             ),
         )
     });
@@ -175,6 +183,7 @@ fn header(map: &Map, program: Option<&[Segment]>) -> String {
             ("DEGREE", &degree.to_string()),
             ("DIRECTIONS", &directions),
             ("SECTORS", &Sector::all(lattice).len().to_string()),
+            ("SECTOR_BITS", &(Sector::all(lattice).len().next_power_of_two() - 1).to_string()),
             ("LAST", &(degree - 1).to_string()),
             ("LAST_AHEAD", &(degree + 7).to_string()),
             ("LAST_BETWEEN", &(degree + 15).to_string()),
@@ -219,7 +228,6 @@ fn inputs() -> String {
 
 fn rule(lattice: Lattice) -> String {
     let [right, down] = lattice::neighbours(lattice);
-    let [ring1, ahead, between] = lattice::window(lattice);
     let (parities, parity) = if lattice == Lattice::Hex { ("2", "cell.y & 1U") } else { ("1", "0") };
     fill(
         include_str!("templates/ac_rule.c"),
@@ -232,9 +240,7 @@ fn rule(lattice: Lattice) -> String {
             ("RIGHT", &right),
             ("DOWN", &down),
             ("SLICES", &lattice::slices(lattice)),
-            ("RING1", &ring1),
-            ("AHEAD", &ahead),
-            ("BETWEEN", &between),
+            ("WINDOW", &lattice::window(lattice)),
             ("NAME", lattice.name()),
             ("ONES", &super::circuit::number((1 << lattice.degree()) - 1)),
         ],

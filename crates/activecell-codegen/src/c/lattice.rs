@@ -111,31 +111,38 @@ pub(super) fn slices(lattice: Lattice) -> String {
             _ => [format!("{row}U * words"), format!("({row}U * words) + 1U")],
         };
         text += &format!(
-            "    const uint32_t {name} = ({base}[{word}] >> {base}_right) | (({base}[{next}] << 1U) << {base}_left);\n"
+            "    const uint32_t {name} =\n        \
+             ({base}[{word}] >> {base}_right) | (({base}[{next}] << 1U) << {base}_left);\n"
         );
     }
     text
 }
 
-/// The lanes of the window, gathered from those rows: a group of them, the last lane innermost.
-fn lanes(lattice: Lattice, place: impl Fn(Cell, Dir) -> Cell) -> String {
-    let mut lanes = lattice.dirs().rev().map(|dir| {
+/// The lanes of the window, gathered from those rows: the neighbours, what lies ahead of them, what between them.
+pub(super) fn window(lattice: Lattice) -> String {
+    [
+        lanes(lattice, "ring1", |cell, dir| lattice.neighbour(cell, dir)),
+        lanes(lattice, "ahead", |cell, dir| lattice.ring2(cell, 2 * dir.0)),
+        lanes(lattice, "between", |cell, dir| lattice.ring2(cell, 2 * dir.0 + 1)),
+    ]
+    .join("\n")
+}
+
+/// A group of them, the last lane first.
+fn lanes(lattice: Lattice, name: &str, place: impl Fn(Cell, Dir) -> Cell) -> String {
+    let mut text = String::new();
+    for dir in lattice.dirs().rev() {
         let offset = Offset::of(|cell| place(cell, dir));
         let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
         assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
-        format!("{}, {}U", ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2)
-    });
-    let last = lanes.next().unwrap_or_default();
-    lanes.fold(format!("at({last})"), |above, lane| format!("with({above}, {lane})"))
-}
-
-/// The three groups of lanes of the window: the neighbours, what lies ahead of them, what between them.
-pub(super) fn window(lattice: Lattice) -> [String; 3] {
-    [
-        lanes(lattice, |cell, dir| lattice.neighbour(cell, dir)),
-        lanes(lattice, |cell, dir| lattice.ring2(cell, 2 * dir.0)),
-        lanes(lattice, |cell, dir| lattice.ring2(cell, 2 * dir.0 + 1)),
-    ]
+        let (row, bit) = (ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2);
+        text += &if text.is_empty() {
+            format!("    uint32_t {name} = at({row}, {bit}U);\n")
+        } else {
+            format!("    {name} = with({name}, {row}, {bit}U);\n")
+        };
+    }
+    text
 }
 
 /// From a signal with one lane set to the number of the lane.
@@ -156,9 +163,12 @@ pub(super) fn lane_number(lattice: Lattice) -> String {
 
 /// The order in which each sector asks the neighbours.
 pub(super) fn orders(lattice: Lattice) -> String {
-    let orders = Sector::all(lattice)
-        .map(|sector| list(sector.candidates(lattice, false).map(|candidate| candidate.dir.0.into())));
-    orders.map(|order| format!("        {order},\n")).collect()
+    let mut text = String::new();
+    for sector in Sector::all(lattice) {
+        let order = sector.candidates(lattice, false).map(|candidate| candidate.dir.0.into());
+        text += &format!("        {},\n", list(order));
+    }
+    text
 }
 
 /// How the wave comes to a word of cells from each direction.

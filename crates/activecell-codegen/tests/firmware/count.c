@@ -4,35 +4,43 @@
 #include "activecell.h"
 #include "startup.h"
 
-#define ROUNDS 400U
+#define ROUNDS 200U
 
 int main(void);
 
-static uint32_t memory[AC_FLOOR_WAVE_WORDS];
-static ac_level levels[AC_FLOOR_LEVELS];
+/* Not static, for no WHAT needs them all. */
+uint32_t memory[AC_FLOOR_WAVE_WORDS];
+ac_level levels[AC_FLOOR_LEVELS];
+ac_wave wave;
+ac_learning learning;
+ac_player player;
+const ac_cell from = { FROM_X, FROM_Y };
+const ac_cell target = { TO_X, TO_Y };
+
 static volatile uint32_t sink;
 
 int main(void)
 {
     static const ac_segment segments[] = { { AC_RUN_FORWARD, 7U }, { AC_RUN_LEFT, 3U }, { AC_RUN_FORWARD, 9000U } };
-    const ac_cell from = { FROM_X, FROM_Y };
-    const ac_cell target = { TO_X, TO_Y };
     const uint32_t ones = (1U << AC_DIRECTIONS) - 1U;
     ac_cell cell = from;
-    ac_wave wave;
-    ac_learning learning;
-    ac_player player;
     uint32_t state = 1U;
     uint32_t round;
 
-    if (!ac_wave_start(&wave, &ac_floor, target, memory, AC_FLOOR_WAVE_WORDS) ||
-        !ac_learning_start(&learning, target, levels, AC_FLOOR_LEVELS)) {
+#if WHAT == 3 || WHAT == 6 || WHAT == 7
+    if (!ac_wave_start(&wave, &ac_floor, target, memory, AC_FLOOR_WAVE_WORDS)) {
         return 1;
     }
-    ac_player_start(&player, segments, 3U);
+#endif
 #if WHAT == 3 || WHAT == 6
     ac_wave_flood(&wave);
 #endif
+#if WHAT == 4 || WHAT == 8
+    if (!ac_learning_start(&learning, target, levels, AC_FLOOR_LEVELS)) {
+        return 1;
+    }
+#endif
+    ac_player_start(&player, segments, 3U);
     for (round = 0U; round < ROUNDS; ++round) {
         ac_move move;
         uint32_t sector = (state >> 4U) & 15U;

@@ -1,11 +1,11 @@
 //! Compiled for this machine: every input, and traces on maps.
 
-use crate::{STRICT, common, real_map, sources, written};
+use crate::{STRICT, common, real_map, sources, warehouse, written};
 use activecell::control::{Inputs, State, TABLE};
 use activecell::rule::{Decision, Sector, decide, neighbourhood};
 use activecell::{Cell, DirectionPlanes, Lattice, Map, Outcome, Rng, Route, Rule};
-use activecell_codegen::c;
 use activecell_codegen::model::player::{Motion, Player, Segment, Senses};
+use activecell_codegen::{c, circuits};
 use std::io::Write;
 use std::path::PathBuf;
 use std::process::Stdio;
@@ -91,6 +91,42 @@ fn every_input_has_the_answer_of_the_core() {
             }
         }
         println!("{lattice}: {compared} decisions and 2048 steps of the control unit are those of the core");
+    }
+}
+
+/// The printed circuits, also those that the firmware does without, on random inputs.
+#[test]
+fn circuits_as_functions_compute_what_they_say() {
+    let Some([gcc]) = common::programs("circuits_as_functions", ["gcc"]) else { return };
+    let both = Lattice::ALL.iter().flat_map(|&l| [circuits::sector(l), circuits::decision(l)]);
+    for circuit in both.chain([circuits::control()]) {
+        let folder = written(&format!("function_{}", circuit.name), &warehouse(Lattice::Square), None);
+        let name = format!("ac_{}", circuit.name);
+        let arguments: Vec<String> = (0..circuit.inputs.len()).map(|place| format!("in[{place}]")).collect();
+        let call = format!("{name}({})", arguments.join(", "));
+        let outputs: Vec<&str> = circuit.outputs().map(|wire| wire.port.name.as_str()).collect();
+        let calls: Vec<String> = match outputs[..] {
+            [_] => vec![format!("put({call});")],
+            _ => outputs.iter().map(|output| format!("put({call}.{output});")).collect(),
+        };
+        let calls = calls.join("\n        ");
+        let text = format!(
+            "#include \"../src/ac_bit.h\"\n#include <stdio.h>\n\n{}\n\
+             static void put(uint32_t number)\n{{\n    (void)fwrite(&number, 4U, 1U, stdout);\n}}\n\n\
+             int main(void)\n{{\n    uint32_t in[{}];\n    while (fread(in, sizeof in, 1U, stdin) == 1U) {{\n        \
+             {calls}\n    }}\n    return 0;\n}}\n",
+            c::function(&circuit),
+            arguments.len()
+        );
+        std::fs::write(folder.join("driver.c"), text).unwrap();
+        common::run(common::command(&gcc, &folder).args(STRICT).args(["-O1", "-o", "driver", "driver.c"]));
+        let mut rng = Rng::new(4);
+        let inputs: Vec<Vec<u32>> = (0..20_000)
+            .map(|_| circuit.inputs.iter().map(|port| rng.below(1 << port.width)).collect())
+            .collect();
+        let answers = Driver { folder }.numbers("", &inputs.concat());
+        let expected: Vec<u32> = inputs.iter().flat_map(|inputs| circuit.evaluate(inputs)).collect();
+        assert_eq!(answers, expected, "{name}");
     }
 }
 

@@ -10,7 +10,7 @@ mod misra;
 
 use activecell::{BitPlane, Lattice, Map};
 use activecell_codegen::c;
-use activecell_codegen::model::player::Segment;
+use activecell_codegen::model::player::{Motion, Segment};
 use std::path::{Path, PathBuf};
 
 /// Warnings are errors, and there are many.
@@ -46,9 +46,10 @@ fn written(test: &str, map: &Map, program: Option<&[Segment]>) -> PathBuf {
 
 /// The sources of the firmware in a folder, for a command.
 fn sources(folder: &Path) -> Vec<String> {
-    let files = std::fs::read_dir(folder.join("src")).unwrap().map(|file| file.unwrap().file_name());
-    let names = files.map(|name| format!("src/{}", name.to_string_lossy()));
-    let mut names: Vec<String> = names.filter(|name| name.ends_with(".c")).collect();
+    let files = std::fs::read_dir(folder.join("src")).unwrap().map(|file| file.unwrap().path());
+    let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "c"));
+    let name = |file: PathBuf| format!("src/{}", file.file_name().unwrap().to_string_lossy());
+    let mut names: Vec<String> = files.map(name).collect();
     names.sort();
     names
 }
@@ -80,4 +81,27 @@ fn movingai(lattice: Lattice, text: &str) -> Map {
 /// The project's own floor.
 fn warehouse(lattice: Lattice) -> Map {
     movingai(lattice, &std::fs::read_to_string(common::root().join("maps/warehouse.map")).unwrap())
+}
+
+#[test]
+fn what_cannot_be_firmware_is_refused_and_lines_are_short() {
+    let map = warehouse(Lattice::Square);
+    let run = |ticks| Segment { motion: Motion::Forward, ticks };
+    let wide = Map::new(Lattice::Square, BitPlane::new(65_536, 1).unwrap());
+    for (map, program, expected) in [
+        (&wide, None, "the longer side of the map in cells is 65536"),
+        (&map, Some(&[run(3), run(0)][..]), "ticks of a segment of the program is 0"),
+        (&map, Some(&[]), "number of segments of the program is 0"),
+    ] {
+        let error = c::firmware(map, program).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    for lattice in Lattice::ALL {
+        for file in c::firmware(&warehouse(lattice), Some(&[run(3)])).unwrap() {
+            for line in file.text.lines() {
+                assert!(line.len() <= 110 && line.trim_end() == line, "{}: {line}", file.path);
+            }
+            assert!(file.text.ends_with('\n') && !file.text.ends_with("\n\n"), "{}", file.path);
+        }
+    }
 }

@@ -1,7 +1,8 @@
 /*
  * The published rule: which neighbour becomes the next active cell.
  *
- * After Alzoubi and Miraz, Enhancing Robot Navigation Efficiency Using Cellular Automata with Active Cells.
+ * After Alzoubi and Miraz, Enhancing Robot Navigation Efficiency Using Cellular Automata with Active
+ * Cells.
  */
 #include "activecell.h"
 #include "ac_bit.h"
@@ -74,10 +75,8 @@ uint32_t ac_window(const ac_map *map, ac_cell cell)
     const uint32_t words = map->words;
     /* From two rows above and two columns to the left, as the map begins with two of obstacles. */
 @SLICES@
-    const uint32_t ring1 = @RING1@;
-    const uint32_t ahead = @AHEAD@;
-    const uint32_t between = @BETWEEN@;
-
+    /* The lanes, the last one first. */
+@WINDOW@
     return ring1 | (ahead << 8U) | (between << 16U);
 }
 
@@ -114,8 +113,9 @@ void ac_replay_start(ac_replay *replay, ac_cell from, ac_cell target)
 }
 
 /*
- * The rule has no memory, so a robot that comes back to a cell circles for ever. One cell is remembered, and another
- * one instead of it after 1, 2, 4, 8, ... steps: R. Brent, An Improved Monte Carlo Factorization Algorithm, BIT 20, 1980.
+ * The rule has no memory, so a robot that comes back to a cell circles for ever. One cell is
+ * remembered, and another one instead of it after 1, 2, 4, 8, ... steps: R. Brent, An Improved Monte
+ * Carlo Factorization Algorithm, BIT 20, 1980.
  */
 ac_move ac_replay_step(ac_replay *replay, const ac_map *map)
 {

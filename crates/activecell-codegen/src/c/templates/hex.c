@@ -19,8 +19,8 @@ uint32_t ac_distance(ac_cell from, ac_cell to)
 uint32_t ac_bearing(ac_cell from, ac_cell target)
 {
     /*
-     * For a target less far across than down, as far, farther, three times as far, farther than that: in the same row,
-     * below, above; and there straight, to the right, to the left.
+     * For a target less far across than down, as far, farther, three times as far, farther than that:
+     * in the same row, below, above; and there straight, to the right, to the left.
      */
     static const uint8_t sectors[5][3][3] = {
 @SECTOR_TABLE@    };
