@@ -49,9 +49,7 @@ fn least_loss(map: &Map, team: &Team) -> Option<u64> {
 
 fn some_cells(free: &[Cell], count: usize, rng: &mut Rng) -> Vec<Cell> {
     let mut cells = free.to_vec();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells.truncate(count);
     cells
 }

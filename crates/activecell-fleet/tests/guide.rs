@@ -20,9 +20,7 @@ fn crowd(seed: u64) -> (Map, Team) {
     let robots = 1 + (part.len() as f64 * 0.8 * rng.unit().powi(2)) as usize;
     let mut draw = || {
         let mut cells = part.clone();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        rng.shuffle(&mut cells);
         cells.truncate(robots);
         cells
     };

@@ -14,9 +14,7 @@ fn random_team(map: &Map, robots: usize, seed: u64) -> Team {
     let cells: Vec<Cell> = cells.into_iter().filter(|cell| part.get(cell.x as u32, cell.y as u32)).collect();
     let mut draw = || {
         let mut cells = cells.clone();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        rng.shuffle(&mut cells);
         cells.truncate(robots);
         cells
     };

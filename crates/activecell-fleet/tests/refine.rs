@@ -7,9 +7,7 @@ use activecell_fleet::{Advance, Arbiter, Fields, Floor, Goal, Refiner, Search};
 fn team(map: &Map, floor: &Floor, robots: usize, rng: &mut Rng) -> Team {
     let mut shuffled = || {
         let mut cells: Vec<Cell> = map.free().collect();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        rng.shuffle(&mut cells);
         cells
     };
     let pairs = shuffled().into_iter().zip(shuffled());

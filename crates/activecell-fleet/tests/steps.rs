@@ -5,9 +5,7 @@ use activecell_fleet::{Arbiter, Fields, Floor, Goal, NONE};
 
 fn draw(cells: &[u32], count: usize, rng: &mut Rng) -> Vec<u32> {
     let mut cells = cells.to_vec();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells.truncate(count);
     cells
 }

@@ -77,9 +77,7 @@ fn team(map: &Map, scen: &str, robots: usize) -> Result<Team, Failure> {
     let mut rng = Rng::new(1);
     let mut draw = || {
         let mut cells: Vec<Cell> = map.free().collect();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        rng.shuffle(&mut cells);
         cells.truncate(robots);
         cells
     };

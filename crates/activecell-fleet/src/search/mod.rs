@@ -234,9 +234,7 @@ impl<'a> Search<'a> {
             let here = node.cells[robot as usize];
             let mut choices: Vec<u32> = self.arbiter.floor_of(robot).links(here).to_vec();
             choices.push(here);
-            for i in (1..choices.len()).rev() {
-                choices.swap(i, self.rng.below(i as u32 + 1) as usize);
-            }
+            self.rng.shuffle(&mut choices);
             self.nodes.branch(number, own, choices);
         }
         order.iter().copied().zip(cells).collect()

@@ -390,9 +390,7 @@ mod tests {
         let mut rng = Rng::new(seed);
         let mut free: Vec<Cell> = map.free().collect();
         let mut draw = || {
-            for i in (1..free.len()).rev() {
-                free.swap(i, rng.below(i as u32 + 1) as usize);
-            }
+            rng.shuffle(&mut free);
             free[..20].to_vec()
         };
         let team = Team::new(&map, draw(), draw()).expect("a team");

@@ -54,9 +54,7 @@ fn naive(local: &Local<'_>, robot: u32, start: u32, hurried: bool, lead: &[u32])
 /// Any other cell of the floor's largest part for each robot, no two alike.
 fn draw(cells: &[u32], count: usize, rng: &mut Rng) -> Vec<u32> {
     let mut cells = cells.to_vec();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells.truncate(count);
     cells
 }
