@@ -81,6 +81,14 @@ struct State {
     rng: Rng,
 }
 
+/// What a neighbourhood is chosen from and planned on.
+#[derive(Clone, Copy)]
+struct View<'a> {
+    ground: &'a Ground,
+    guides: &'a Guides<'a>,
+    plan: &'a Incumbent,
+}
+
 /// Where each robot wants to go, and its field.
 #[derive(Debug)]
 struct Guides<'a> {
@@ -196,8 +204,9 @@ fn alone(
     stop: &impl Fn() -> bool,
 ) {
     for _ in 0..BATCHES {
+        let view = View { ground, guides, plan: &state.plan };
         let tasks = state.tasks.iter().take_while(|_| !stop());
-        let found = tasks.map(|(_, task)| worker.attempt(ground, guides, &state.plan, task)).collect();
+        let found = tasks.map(|(_, task)| worker.attempt(view, task)).collect();
         state.settle(found);
         worker.follow(ground, &state.plan, &state.changes);
         state.draw();
@@ -220,11 +229,12 @@ fn side_by_side(
         for _ in 0..BATCHES {
             {
                 let state = state.read().unwrap_or_else(PoisonError::into_inner);
+                let view = View { ground, guides, plan: &state.plan };
                 let mut own = Vec::new();
                 while !stop() {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some((_, task)) = state.tasks.get(index) else { break };
-                    own.push((index, worker.attempt(ground, guides, &state.plan, task)));
+                    own.push((index, worker.attempt(view, task)));
                 }
                 found.lock().unwrap_or_else(PoisonError::into_inner).append(&mut own);
             }
