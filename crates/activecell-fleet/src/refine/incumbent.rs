@@ -1,7 +1,6 @@
 //! The best plan so far: the path of each robot, and who is where at each step.
 
 use super::ground::Ground;
-use crate::arbitrate::Goal;
 use crate::floor::{Floor, NONE};
 use activecell::Plan;
 use std::mem;
@@ -159,10 +158,4 @@ impl Incumbent {
             && !(1..path.len()).any(meets)
             && (path.len()..=self.steps).all(|step| self.who(step, last) == NONE)
     }
-}
-
-/// The distance of each robot.
-pub(super) fn least(floor: &Floor, fields: &crate::fields::Fields, goals: &[Goal], plan: &Plan) -> Vec<u32> {
-    let distance = |(goal, &cell): (&Goal, _)| fields.steps(floor, goal.slot, floor.number(cell));
-    goals.iter().zip(plan.row(0)).map(distance).collect()
 }

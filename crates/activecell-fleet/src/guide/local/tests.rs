@@ -1,7 +1,7 @@
 //! The search of a window against every way there is.
 
 use super::*;
-use crate::{Fields, Floor, Goal};
+use crate::{Fields, Floor};
 use activecell::{Lattice, Map};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -73,13 +73,10 @@ fn no_way_through_the_window_costs_less() {
         let (starts, targets) = (draw(&part, robots, &mut rng), draw(&part, robots, &mut rng));
         let robots = starts.len();
         let mut fields = Fields::new(&floor);
-        let slots = fields.request(&floor, &targets, 1).unwrap();
-        let goals: Vec<Goal> =
-            targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+        let goals = fields.goals(&floor, &targets, 1).unwrap();
         let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
         let mut local = Local::new(problem, 1 + rng.below(8), seed);
-        let ahead: Vec<u32> =
-            starts.iter().zip(&goals).map(|(&start, goal)| fields.steps(&floor, goal.slot, start)).collect();
+        let ahead = problem.distances();
         let mut ways_beforehand = rng.chance(0.5).then(|| Ways::new(problem, &ahead, seed, &|| false));
         let mut now = starts.clone();
         let mut wishes = Vec::new();
