@@ -37,6 +37,7 @@ fn main() -> Result<(), Failure> {
         team: &team,
         plan: &plan,
         lower_bound,
+        endless: false,
         view: FleetView::Fitting,
     };
     let number = |i: usize, usual: usize| rest.get(i).map_or(Ok(usual), |text: &String| text.parse());

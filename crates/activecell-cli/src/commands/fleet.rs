@@ -52,9 +52,15 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
         say_what_is_not_held(args, &formats, &team, &keep_outs, terminal);
         // A picture that fails costs no plan.
         let title = args.map.path.file_stem().unwrap_or_default().to_string_lossy();
-        let (lower_bound, view) = (Some(report.lower_bound), FleetView::default());
-        let picture =
-            FleetPicture { map: &map, title: &title, team: &team, plan: &file.plan, lower_bound, view };
+        let picture = FleetPicture {
+            map: &map,
+            title: &title,
+            team: &team,
+            plan: &file.plan,
+            lower_bound: Some(report.lower_bound),
+            endless: false,
+            view: FleetView::default(),
+        };
         draw(&pictures, &picture, terminal)?;
     }
     let text = if args.json {
@@ -153,12 +159,9 @@ fn plan_file(
     report: &FleetReport,
 ) -> PlanFile {
     let stated = Stated {
-        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
-        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
-        seed: Some(args.seed),
         lower_bound: Some(report.lower_bound),
         comp_time_ms: Some(report.elapsed_ms),
-        ..Stated::default()
+        ..stated(args)
     };
     PlanFile {
         lattice: Some(map.lattice()),
@@ -169,6 +172,16 @@ fn plan_file(
         keep_outs: keep_outs.all().to_vec(),
         stated,
         ..PlanFile::new(plan)
+    }
+}
+
+/// What every plan of this command states.
+pub(super) fn stated(args: &FleetArgs) -> Stated {
+    Stated {
+        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
+        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
+        seed: Some(args.seed),
+        ..Stated::default()
     }
 }
 
