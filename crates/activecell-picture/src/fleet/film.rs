@@ -377,7 +377,7 @@ fn colours() -> impl Iterator<Item = Rgb> {
 mod tests {
     use super::*;
     use crate::FleetView;
-    use activecell::{Lattice, Map, Rng, Team};
+    use activecell::{Lattice, Map, Team};
     use activecell_fleet::{Limits, Options, solve};
 
     #[test]
@@ -395,13 +395,7 @@ mod tests {
     /// Robots on a floor, some of which rest early.
     fn case(lattice: Lattice, seed: u64) -> (Map, Team, activecell::Plan) {
         let map = Map::random(lattice, 14, 11, 0.1, seed).expect("a map");
-        let mut rng = Rng::new(seed);
-        let mut free: Vec<Cell> = map.free().collect();
-        let mut draw = || {
-            rng.shuffle(&mut free);
-            free[..20].to_vec()
-        };
-        let team = Team::new(&map, draw(), draw()).expect("a team");
+        let team = Team::random(&map, 20, seed).expect("a team");
         let limits = Limits { time: None, steps: Some(10_000), first: true, ..Limits::default() };
         let options = Options { limits, ..Options::default() };
         let plan = solve(&map, &team, &options, |_| {}).expect("a floor").plan;
