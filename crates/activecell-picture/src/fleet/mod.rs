@@ -73,8 +73,8 @@ pub fn fleet_png(picture: &FleetPicture<'_>) -> Result<Vec<u8>, Error> {
 }
 
 /// The group moving, as an animated GIF file. Robots have the colour of their target, and become pale where they come to
-/// rest there. Short plans are shown with several frames a step, long ones with several steps a frame: what was chosen is
-/// told with the film.
+/// rest there; in a run without end, that of where they stop. Short plans are shown with several frames a step, long ones
+/// with several steps a frame: what was chosen is told with the film.
 ///
 /// # Errors
 /// [`Error::Canvas`], [`Error::Encoding`].
