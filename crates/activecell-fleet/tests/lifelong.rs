@@ -15,9 +15,7 @@ fn floor(lattice: Lattice, size: u32, density: f64, rng: &mut Rng) -> (Map, Vec<
     let map = Map::random(lattice, width, height, density, rng.next_u64()).unwrap();
     let parts = map.free().map(|cell| within_reach(&map, cell));
     let mut cells = parts.max_by_key(Vec::len).unwrap_or_default();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     (map, cells)
 }
 
