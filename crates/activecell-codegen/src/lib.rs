@@ -13,6 +13,7 @@
 
 pub mod circuits;
 pub mod logic;
+pub mod model;
 mod source;
 pub mod verilog;
 
