@@ -12,9 +12,11 @@
 //! ```
 
 pub mod circuits;
+mod images;
 pub mod logic;
 pub mod model;
 mod source;
+mod template;
 pub mod verilog;
 
 pub use source::SourceFile;

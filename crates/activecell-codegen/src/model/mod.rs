@@ -1,3 +1,4 @@
 //! The navigators as models: what the generated hardware must do, clock by clock, in Rust.
 
 pub mod player;
+pub mod player_trace;
