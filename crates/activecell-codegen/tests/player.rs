@@ -1,0 +1,145 @@
+//! The program player in Verilog does what its model does, clock by clock, and what must never happen does not.
+
+mod common;
+
+use activecell::control::Inputs;
+use activecell::{Cell, Dir, Drive, Lattice, Map, Rng, Robot, Rule};
+use activecell_codegen::model::player::{Motion, Player, Segment, Senses, segments};
+use activecell_codegen::{SourceFile, verilog};
+use common::cxxrtl::Simulation;
+use std::path::Path;
+
+/// A program of a random route over a random map of either lattice, for a random robot.
+fn program(rng: &mut Rng) -> Vec<Segment> {
+    loop {
+        let lattice = Lattice::ALL[rng.below(2) as usize];
+        let cell =
+            |i: u32, rng: &mut Rng| if i % 12 == 11 { '\n' } else { ['#', '.', '.'][rng.below(3) as usize] };
+        let map = Map::parse(lattice, &(0..143).map(|i| cell(i, rng)).collect::<String>()).expect("a map");
+        let robot = Robot {
+            drive: [Drive::Steered, Drive::Differential][rng.below(2) as usize],
+            ticks_per_rev: f64::from(1 + rng.below(4)),
+            can_reverse: rng.below(2) == 0,
+            ..Robot::default()
+        };
+        let [from, to] = [0, 1].map(|_| Cell::new(rng.below(11) as i32, rng.below(12) as i32));
+        if let Ok(route) = map.route(Rule::Wave, from, to, 1000) {
+            let heading = Dir(rng.below(lattice.degree().into()) as u8);
+            return segments(&route.program(&robot, &map, Some(heading)), &robot, lattice).expect("segments");
+        }
+    }
+}
+
+/// Segments that no route has: many, short ones, motions in any order.
+fn strange(rng: &mut Rng) -> Vec<Segment> {
+    let count = rng.below(64);
+    let longest = 1 + rng.below(255);
+    let segment =
+        |rng: &mut Rng| Segment { motion: Motion::ALL[rng.below(4) as usize], ticks: 1 + rng.below(longest) };
+    (0..count).map(|_| segment(rng)).collect()
+}
+
+fn senses(rng: &mut Rng) -> Senses {
+    let obstacles = if rng.below(2) == 0 { Inputs((rng.below(16) << 2) as u8) } else { Inputs::default() };
+    Senses { go: rng.below(8) > 0, tick: rng.below(4) > 0, obstacles }
+}
+
+fn write(folder: &Path, files: &[SourceFile]) {
+    for file in files {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
+        std::fs::write(path, &file.text).expect("the file can be written");
+    }
+}
+
+const SOURCES: &str =
+    "rtl/control_next.v rtl/control_unit.v rtl/player_inputs.v rtl/encoder_edge.v rtl/player.v";
+
+/// Programs in, what the player shows after each clock out. The memory is filled anew for each program.
+const MAIN: &str = r"
+static int byte() { return std::getchar(); }
+
+int main() {
+    for (int words = byte(); words != EOF; words = byte()) {
+        cxxrtl_design::p_player player;
+        for (int place = 0; place < words; place++) {
+            uint32_t word = byte();
+            player.memory_p_words[place].set<uint32_t>(word | byte() << 8);
+        }
+        uint32_t clocks = byte();
+        clocks |= byte() << 8;
+        for (uint32_t clock = 0; clock < clocks + 2; clock++) {
+            uint32_t told = clock < 2 ? 64 : byte();
+            player.p_reset.set<bool>(told >> 6 & 1);
+            player.p_go.set<bool>(told >> 5 & 1);
+            player.p_tick.set<bool>(told >> 4 & 1);
+            player.p_obstacles.set<uint32_t>(told & 15);
+            player.p_clk.set<bool>(true);
+            player.step();
+            player.p_clk.set<bool>(false);
+            player.step();
+            std::putchar(player.p_q0.get<uint32_t>() | player.p_q1.get<uint32_t>() << 1 | player.p_q2.get<uint32_t>() << 2
+                         | player.p_q3.get<uint32_t>() << 3 | player.p_done.get<uint32_t>() << 4);
+            std::putchar(player.p_segment.get<uint32_t>());
+        }
+    }
+}
+";
+
+/// A program as the simulation reads it: ticks of 8 bits, the motion above them, the end above that.
+fn told(segments: &[Segment], senses: &[Senses]) -> Vec<u8> {
+    let number =
+        |motion: Motion| Motion::ALL.iter().position(|&other| other == motion).expect("a motion") as u32;
+    let words = segments.iter().map(|segment| number(segment.motion) << 8 | segment.ticks).chain([1 << 10]);
+    let mut bytes = vec![segments.len() as u8 + 1];
+    bytes.extend(words.flat_map(|word| (word as u16).to_le_bytes()));
+    bytes.extend((senses.len() as u16).to_le_bytes());
+    bytes.extend(
+        senses
+            .iter()
+            .map(|senses| u8::from(senses.go) << 5 | u8::from(senses.tick) << 4 | senses.obstacles.0 >> 2),
+    );
+    bytes
+}
+
+fn shown(player: &Player) -> [u8; 2] {
+    let outputs = player.state().outputs();
+    let q = outputs.iter().enumerate().map(|(place, &output)| u8::from(output) << place).sum::<u8>();
+    [q | u8::from(player.done()) << 4, player.segment() as u8]
+}
+
+#[test]
+fn verilog_plays_as_the_model_clock_by_clock() {
+    let Some(tools) = common::programs("verilog_plays_as_the_model_clock_by_clock", ["yosys", "g++"]) else {
+        return;
+    };
+    let folder = common::folder("player_cxxrtl");
+    // The widest that any of the programs needs.
+    let widest = Segment { motion: Motion::Forward, ticks: 255 };
+    write(&folder, &verilog::player(&[widest; 64]).unwrap());
+    let script = format!("read_verilog {SOURCES}; hierarchy -check -top player; flatten");
+    let simulation = Simulation::compile(&tools, &folder, &script, MAIN);
+    let mut rng = Rng::new(1);
+    let (mut input, mut expected) = (Vec::new(), Vec::new());
+    let (mut clocks, mut ended) = (0, 0);
+    for case in 0..600 {
+        let segments = if case % 2 == 0 { program(&mut rng) } else { strange(&mut rng) };
+        assert!(segments.len() <= 64 && segments.iter().all(|segment| segment.ticks < 256));
+        let senses: Vec<Senses> = (0..4000).map(|_| senses(&mut rng)).collect();
+        let mut player = Player::new(segments.clone());
+        expected.extend([shown(&player); 2]);
+        for &senses in &senses {
+            player.clock(senses);
+            expected.push(shown(&player));
+        }
+        clocks += senses.len();
+        ended += usize::from(player.done());
+        input.extend(told(&segments, &senses));
+    }
+    let output = simulation.run(&input);
+    assert_eq!(output.len(), expected.len() * 2);
+    let wrong = output.chunks(2).zip(&expected).position(|(shown, expected)| shown != expected);
+    assert_eq!(wrong, None, "the first clock that differs");
+    assert!(ended > 300, "{ended} programs came to their end");
+    println!("600 programs, {ended} to their end, {clocks} clocks: the Verilog shows what the model shows");
+}
