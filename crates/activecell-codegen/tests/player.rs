@@ -7,6 +7,7 @@ use activecell::{Cell, Dir, Drive, Lattice, Map, Rng, Robot, Rule};
 use activecell_codegen::model::player::{Motion, Player, Segment, Senses, segments};
 use activecell_codegen::{SourceFile, verilog};
 use common::cxxrtl::Simulation;
+use common::formal;
 use std::path::Path;
 
 /// A program of a random route over a random map of either lattice, for a random robot.
@@ -142,4 +143,85 @@ fn verilog_plays_as_the_model_clock_by_clock() {
     assert_eq!(wrong, None, "the first clock that differs");
     assert!(ended > 300, "{ended} programs came to their end");
     println!("600 programs, {ended} to their end, {clocks} clocks: the Verilog shows what the model shows");
+}
+
+/// For every program of seven segments (the memory holds anything) and all inputs; wrong players are found out.
+#[test]
+fn it_never_drives_at_obstacles_nor_after_the_end() {
+    let Some(tools) = common::programs("it_never_drives_at_obstacles_nor_after_the_end", formal::TOOLS)
+    else {
+        return;
+    };
+    let mutants = [
+        ("rtl/player_inputs.v", "assign left = ~obstacles[1] &", "assign left ="),
+        ("rtl/player.v", ".done(done), .go", ".done(1'b0), .go"),
+        ("rtl/player.v", "tick & ~done & count == ticks", "tick & count == ticks"),
+        ("rtl/control_unit.v", "reset ? 3'd0 : next_state", "next_state"),
+        ("rtl/control_next.v", "assign next0 = ", "assign next0 = from_stopped | "),
+    ];
+    let whole = ("rtl/player.v", "", "");
+    for (place, (path, right, wrong)) in [whole].into_iter().chain(mutants).enumerate() {
+        let folder = common::folder(&format!("player_formal_{place}"));
+        let mut files = verilog::player(&[Segment { motion: Motion::Forward, ticks: 7 }; 7]).unwrap();
+        for file in &mut files {
+            if file.path == "rtl/player.hex" {
+                file.text = "xx\n".repeat(8);
+            }
+            if file.path == path {
+                assert!(file.text.contains(right), "{}", file.text);
+                file.text = file.text.replacen(right, wrong, 1);
+            }
+        }
+        write(&folder, &files);
+        std::fs::write(folder.join("properties.v"), include_str!("formal/player.v")).unwrap();
+        let holds = formal::holds(&tools, &folder, &format!("properties.v {SOURCES}"), "player_formal", 12);
+        assert_eq!(holds, place == 0, "{path} {wrong}");
+    }
+    println!("proven for every program of seven segments; {} wrong players refuted", mutants.len());
+}
+
+/// The test bench as it is shipped passes, and fails if what it expects is wrong.
+#[test]
+fn the_test_bench_passes_and_finds_faults() {
+    let Some([iverilog, vvp]) =
+        common::programs("the_test_bench_passes_and_finds_faults", ["iverilog", "vvp"])
+    else {
+        return;
+    };
+    let mut rng = Rng::new(2);
+    let folder = common::folder("player_bench");
+    let mut clocks = 0;
+    for case in 0..30 {
+        let segments = match case {
+            0 => Vec::new(),
+            1 => vec![Segment { motion: Motion::Reverse, ticks: 100_000 }],
+            _ => program(&mut rng),
+        };
+        let mut files = verilog::player(&segments).unwrap();
+        let is_wrong = case % 3 == 2;
+        if is_wrong {
+            let trace = files.last_mut().unwrap();
+            let place = trace.text.len() - 5; // q3 to q0 of the last line
+            trace.text.replace_range(place..=place, "2");
+        }
+        write(&folder, &files);
+        let mut compile = common::command(&iverilog, &folder);
+        compile.args([
+            "-g2005",
+            "-Wall",
+            "-o",
+            "bench",
+            "-s",
+            "player_tb",
+            "tb/player_tb.v",
+            "rtl/player_top.v",
+        ]);
+        let warnings = compile.args(SOURCES.split(' ')).output().unwrap();
+        assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
+        let said = common::run(common::command(&vvp, &folder).arg("bench"));
+        assert_eq!(said.contains("FAIL: player"), is_wrong, "{said}");
+        assert_eq!(said.contains("PASS: player"), !is_wrong, "{said}");
+        clocks += said.split_whitespace().find_map(|word| word.parse::<usize>().ok()).unwrap_or(0);
+    }
+    println!("30 programs, {clocks} clocks: 20 benches pass, 10 with a wrong expectation fail");
 }

@@ -3,6 +3,7 @@
 #![allow(dead_code, reason = "each test uses some of these")]
 
 pub(crate) mod cxxrtl;
+pub(crate) mod formal;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
