@@ -53,6 +53,7 @@ fn write(folder: &Path, files: &[SourceFile]) {
     }
 }
 
+/// All but `player_top`.
 const SOURCES: &str =
     "rtl/control_next.v rtl/control_unit.v rtl/player_inputs.v rtl/encoder_edge.v rtl/player.v";
 
@@ -145,6 +146,68 @@ fn verilog_plays_as_the_model_clock_by_clock() {
     println!("600 programs, {ended} to their end, {clocks} clocks: the Verilog shows what the model shows");
 }
 
+/// What the chip's pins show, a clock after another, for what they are told: go, reset and the encoders in the upper bits.
+const TOP: &str = r"
+int main() {
+    cxxrtl_design::p_player__top top;
+    for (int told = std::getchar(); told != EOF; told = std::getchar()) {
+        top.p_reset.set<bool>(told >> 7 & 1);
+        top.p_go.set<bool>(told >> 6 & 1);
+        top.p_steering.set<bool>(told >> 5 & 1);
+        top.p_wheel.set<bool>(told >> 4 & 1);
+        top.p_obstacles.set<uint32_t>(told & 15);
+        top.p_clk.set<bool>(true);
+        top.step();
+        top.p_clk.set<bool>(false);
+        top.step();
+        std::putchar(top.p_q0.get<uint32_t>() | top.p_q1.get<uint32_t>() << 1 | top.p_q2.get<uint32_t>() << 2
+                     | top.p_q3.get<uint32_t>() << 3 | top.p_done.get<uint32_t>() << 4);
+    }
+}
+";
+
+/// The pins are seen two clocks later, a pulse by its rising edge; in turns that of the steering.
+#[test]
+fn raw_pulses_are_ticks_at_their_rising_edges() {
+    let Some(tools) = common::programs("raw_pulses_are_ticks_at_their_rising_edges", ["yosys", "g++"]) else {
+        return;
+    };
+    let mut rng = Rng::new(3);
+    let segments = [Motion::Forward, Motion::Left, Motion::Reverse, Motion::Right, Motion::Forward]
+        .map(|motion| Segment { motion, ticks: 1 + rng.below(600) });
+    let folder = common::folder("player_top_cxxrtl");
+    write(&folder, &verilog::player(&segments).unwrap());
+    let script =
+        format!("read_verilog {SOURCES} rtl/player_top.v; hierarchy -check -top player_top; flatten");
+    let simulation = Simulation::compile(&tools, &folder, &script, TOP);
+    let mut pulses = [0; 2];
+    let mut told: Vec<u8> = vec![1 << 7; 4];
+    told.extend((0..40_000).map(|_| {
+        // Pulses and pauses of random length.
+        for pulse in &mut pulses {
+            *pulse ^= u8::from(rng.below(5) == 0);
+        }
+        let senses = senses(&mut rng);
+        u8::from(senses.go) << 6 | pulses[1] << 5 | pulses[0] << 4 | senses.obstacles.0 >> 2
+    }));
+    let mut player = Player::new(segments.to_vec());
+    let expected = (3..told.len()).map(|clock| {
+        let (seen, before) = (told[clock - 2], told[clock - 3]);
+        let turning = matches!(player.wanted(), Some(Motion::Left | Motion::Right));
+        let pulse = if turning { 1 << 5 } else { 1 << 4 };
+        // A pulse that was there at reset is none.
+        let tick = seen & !before & pulse != 0 && clock > 5;
+        if clock > 5 {
+            player.clock(Senses { go: seen >> 6 & 1 == 1, tick, obstacles: Inputs((seen & 15) << 2) });
+        }
+        shown(&player)[0]
+    });
+    let expected: Vec<u8> = expected.collect();
+    assert_eq!(simulation.run(&told)[3..], expected);
+    assert!(player.done());
+    println!("{} clocks of raw pulses: the pins show what the model shows", told.len());
+}
+
 /// For every program of seven segments (the memory holds anything) and all inputs; wrong players are found out.
 #[test]
 fn it_never_drives_at_obstacles_nor_after_the_end() {
@@ -153,11 +216,11 @@ fn it_never_drives_at_obstacles_nor_after_the_end() {
         return;
     };
     let mutants = [
-        ("rtl/player_inputs.v", "assign left = ~obstacles[1] &", "assign left ="),
+        ("rtl/player_inputs.v", "wire left = ~obstacles[1] &", "wire left ="),
         ("rtl/player.v", ".done(done), .go", ".done(1'b0), .go"),
         ("rtl/player.v", "tick & ~done & count == ticks", "tick & count == ticks"),
         ("rtl/control_unit.v", "reset ? 3'd0 : next_state", "next_state"),
-        ("rtl/control_next.v", "assign next0 = ", "assign next0 = from_stopped | "),
+        ("rtl/control_next.v", "wire next0 = ", "wire next0 = from_stopped | "),
     ];
     let whole = ("rtl/player.v", "", "");
     for (place, (path, right, wrong)) in [whole].into_iter().chain(mutants).enumerate() {
