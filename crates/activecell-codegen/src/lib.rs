@@ -11,9 +11,12 @@
 //! assert!(text.contains("module decide_square"));
 //! ```
 
+mod banks;
 pub mod circuits;
 pub mod logic;
+pub mod model;
 mod source;
 pub mod verilog;
 
+pub use banks::{Banks, MOST_STORED};
 pub use source::SourceFile;

@@ -1,0 +1,5 @@
+//! The generated machines in Rust, clock by clock, built on the rules of the core: what their traces must equal.
+
+mod windowed;
+
+pub use windowed::{Shown, Windowed};
