@@ -11,6 +11,7 @@
 //! assert!(text.contains("module decide_square"));
 //! ```
 
+mod banks;
 pub mod circuits;
 mod images;
 pub mod logic;
@@ -19,4 +20,5 @@ mod source;
 mod template;
 pub mod verilog;
 
+pub use banks::{Banks, MOST_STORED};
 pub use source::SourceFile;
