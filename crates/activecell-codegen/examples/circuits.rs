@@ -1,9 +1,13 @@
-//! Prints every circuit in the language named: `circuits verilog|vhdl|c`.
+//! Prints every circuit in the language named: `circuits verilog|c`.
 
 use activecell::Lattice;
-use activecell_codegen::{circuits, verilog};
+use activecell_codegen::{c, circuits, verilog};
 
 fn main() {
+    let print = match std::env::args().nth(1).as_deref() {
+        Some("c") => c::function,
+        _ => verilog::module,
+    };
     for circuit in [
         circuits::sector(Lattice::Square),
         circuits::decision(Lattice::Square),
@@ -11,6 +15,6 @@ fn main() {
         circuits::decision(Lattice::Hex),
         circuits::control(),
     ] {
-        println!("{}", verilog::module(&circuit));
+        println!("{}", print(&circuit));
     }
 }

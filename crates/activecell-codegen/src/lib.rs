@@ -12,6 +12,7 @@
 //! ```
 
 mod banks;
+pub mod c;
 pub mod circuits;
 mod images;
 pub mod logic;

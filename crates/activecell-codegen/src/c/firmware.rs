@@ -1,0 +1,321 @@
+//! The whole firmware: header, sources, map, program, examples.
+
+use super::circuit::function;
+use super::lattice;
+use crate::model::player::{self, Motion, Segment};
+use crate::{SourceFile, circuits};
+use activecell::control::{Inputs, State};
+use activecell::rule::Sector;
+use activecell::{Cell, Error, Lattice, Map};
+
+/// Coordinates are kept in 16 bits where they are packed.
+const SIDE_MAX: u32 = 65_535;
+
+/// The memory that the firmware of a map needs, in bytes. Everything else is on the stack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Footprint {
+    /// The map, in read-only memory.
+    pub map_bytes: u64,
+    /// The caller's memory for a wave.
+    pub wave_bytes: u64,
+    /// The caller's table for learning, so large that it always suffices. A smaller one often does.
+    pub levels_bytes: u64,
+}
+
+/// What the firmware of a map needs.
+pub fn footprint(map: &Map) -> Footprint {
+    let shape = Shape::of(map);
+    Footprint {
+        map_bytes: 4 * shape.length(),
+        wave_bytes: 4 * shape.wave_words(),
+        levels_bytes: 8 * shape.levels(),
+    }
+}
+
+/// The C99 firmware of a map, and of a program for it if there is one.
+///
+/// A header and a source for each part, freestanding, without warnings at the strictest settings; examples for a plain
+/// `main` and for a Cortex-M board. The lattice is that of the map.
+///
+/// # Errors
+/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, and segments without a tick.
+///
+/// ```
+/// use activecell::{Lattice, Map};
+/// use activecell_codegen::c;
+/// let map = Map::parse(Lattice::Square, "..#\n...")?;
+/// let files = c::firmware(&map, None)?;
+/// assert!(files.iter().any(|file| file.path == "include/activecell.h"));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile>, Error> {
+    let side = map.width().max(map.height());
+    if side > SIDE_MAX {
+        return Err(Error::BadValue {
+            name: "the longer side of the map in cells",
+            value: side.into(),
+            allowed: "at most 65535 for firmware; use larger cells or a part of the map",
+        });
+    }
+    if program.is_some_and(|segments| segments.iter().any(|segment| segment.ticks == 0)) {
+        return Err(Error::BadValue {
+            name: "ticks of a segment of the program",
+            value: 0.0,
+            allowed: "at least 1; leave segments without ticks out",
+        });
+    }
+    let mut files = vec![
+        SourceFile::new("include/activecell.h", header(map, program)),
+        SourceFile::new("src/ac_rule.c", rule(map.lattice())),
+        SourceFile::new("src/ac_learning.c", learning(map.lattice())),
+        SourceFile::new("src/ac_wave.c", wave(map.lattice())),
+        SourceFile::new("src/ac_drive.c", drive()),
+        SourceFile::new("src/ac_map.c", floor(map)),
+    ];
+    files.extend(program.map(|segments| SourceFile::new("src/ac_program.c", listing(segments))));
+    let examples = [
+        ("main.c", include_str!("templates/examples/main.c")),
+        ("cortex_m.c", include_str!("templates/examples/cortex_m.c")),
+        ("startup.c", include_str!("templates/examples/startup.c")),
+        ("startup.h", include_str!("templates/examples/startup.h")),
+        ("cortex_m.ld", include_str!("templates/examples/cortex_m.ld")),
+    ];
+    files.extend(examples.map(|(name, text)| SourceFile::new(format!("examples/{name}"), text)));
+    Ok(files)
+}
+
+/// Puts texts in the places of a template.
+fn fill(template: &str, places: &[(&str, &str)]) -> String {
+    let filled = places.iter().fold(template.to_owned(), |text, (place, value)| {
+        debug_assert!(text.contains(&format!("@{place}@")), "{place} is no place of the template");
+        text.replace(&format!("@{place}@"), value)
+    });
+    debug_assert!(!filled.contains('@'), "a place was left over: {filled}");
+    filled
+}
+
+/// How the rows of a map lie in words.
+struct Shape {
+    width: u64,
+    height: u64,
+    words: u64,
+    planes: u64,
+    free: u64,
+}
+
+impl Shape {
+    fn of(map: &Map) -> Self {
+        Self {
+            width: map.width().into(),
+            height: map.height().into(),
+            words: u64::from(map.width() + 4).div_ceil(32),
+            planes: lattice::planes(map.lattice()).into(),
+            free: map.free_cells() as u64,
+        }
+    }
+
+    const fn length(&self) -> u64 {
+        (self.height + 4) * self.words + 1
+    }
+
+    const fn wave_words(&self) -> u64 {
+        self.words * (self.height + 4 + self.planes * self.height)
+    }
+
+    /// One entry stays vacant.
+    const fn levels(&self) -> u64 {
+        (self.free + 2).next_power_of_two()
+    }
+}
+
+fn define(name: &str, value: u64, about: &str) -> String {
+    format!(
+        "#define {name} {value}U{}\n",
+        if about.is_empty() { String::new() } else { format!(" /**< {about} */") }
+    )
+}
+
+fn header(map: &Map, program: Option<&[Segment]>) -> String {
+    let lattice = map.lattice();
+    let shape = Shape::of(map);
+    let degree = lattice.degree();
+    let directions: String = lattice
+        .dirs()
+        .map(|dir| define(&format!("AC_{}", lattice.dir_name(dir)), dir.0.into(), ""))
+        .collect();
+    let states = State::ALL.map(|state| define(&format!("AC_{}", upper(state.name())), state as u64, ""));
+    let motions = Motion::ALL.iter().enumerate();
+    let motions: String = [define("AC_MOTIONS", Motion::ALL.len() as u64, "How many; a power of two.")]
+        .into_iter()
+        .chain(motions.map(|(number, motion)| define(&motion_name(*motion), number as u64, "")))
+        .collect();
+    let sizes = [
+        define("AC_FLOOR_WIDTH", shape.width, "Columns of the map."),
+        define("AC_FLOOR_HEIGHT", shape.height, "Rows of the map."),
+        define("AC_FLOOR_WAVE_WORDS", shape.wave_words(), "Memory of a wave on it."),
+        define("AC_FLOOR_LEVELS", shape.levels(), "A table of that capacity always suffices on it."),
+    ];
+    let (program_file, program) = program.map_or_else(Default::default, |segments| {
+        (
+            " *   ac_program.c   the program that this was generated from\n",
+            format!(
+                "\n{}/** The program M. */\nextern const ac_segment ac_program[AC_PROGRAM_COUNT];\n",
+                define("AC_PROGRAM_COUNT", segments.len().max(1) as u64, "Segments of the program.")
+            ),
+        )
+    });
+    fill(
+        include_str!("templates/activecell.h"),
+        &[
+            ("VERSION", env!("CARGO_PKG_VERSION")),
+            ("LATTICE", cells_of(lattice)),
+            ("PROGRAM_FILE", program_file),
+            ("SIDE_MAX", &SIDE_MAX.to_string()),
+            ("DEGREE", &degree.to_string()),
+            ("DIRECTIONS", &directions),
+            ("SECTORS", &Sector::all(lattice).len().to_string()),
+            ("LAST", &(degree - 1).to_string()),
+            ("LAST_AHEAD", &(degree + 7).to_string()),
+            ("LAST_BETWEEN", &(degree + 15).to_string()),
+            ("PLANES", &shape.planes.to_string()),
+            ("STATES", &states.concat()),
+            ("INPUTS", &inputs()),
+            ("MOTIONS", &motions),
+            ("MAP_SIZES", &sizes.concat()),
+            ("PROGRAM", &program),
+        ],
+    )
+}
+
+const fn cells_of(lattice: Lattice) -> &'static str {
+    match lattice {
+        Lattice::Square => "square cells",
+        Lattice::Hex => "hexagonal cells, odd rows shifted right by half a cell",
+    }
+}
+
+fn upper(name: &str) -> String {
+    name.to_uppercase()
+}
+
+fn motion_name(motion: Motion) -> String {
+    format!("AC_RUN_{}", upper(motion.name()))
+}
+
+fn inputs() -> String {
+    let inputs = [
+        ("GO", Inputs::GO, "A task is set."),
+        ("SIDE_LEFT", Inputs::SIDE_LEFT, "Of the two sides the left one is wanted."),
+        ("RIGHT", Inputs::RIGHT, "Obstacle on the right."),
+        ("LEFT", Inputs::LEFT, "Obstacle on the left."),
+        ("FRONT", Inputs::FRONT, "Obstacle in front; the route forces a turn by it."),
+        ("BEHIND", Inputs::BEHIND, "Obstacle behind."),
+        ("STOP", Inputs::STOP, "Stop; wins over all others."),
+        ("REVERSE", Inputs::REVERSE, "Drive backwards."),
+    ];
+    inputs.map(|(name, input, about)| define(&format!("AC_IN_{name}"), input.0.into(), about)).concat()
+}
+
+fn rule(lattice: Lattice) -> String {
+    let [right, down] = lattice::neighbours(lattice);
+    let (parities, parity) = if lattice == Lattice::Hex { ("2", "cell.y & 1U") } else { ("1", "0") };
+    fill(
+        include_str!("templates/ac_rule.c"),
+        &[
+            ("SECTOR_FUNCTION", &function(&circuits::sector(lattice))),
+            ("DECIDE_FUNCTION", &function(&circuits::decision(lattice))),
+            ("LANE_FUNCTION", &lattice::lane_number(lattice)),
+            ("GEOMETRY", &lattice::geometry(lattice)),
+            ("PARITIES", parities),
+            ("PARITY", parity),
+            ("RIGHT", &right),
+            ("DOWN", &down),
+            ("SLICES", &lattice::slices(lattice)),
+            ("WINDOW", &lattice::window(lattice)),
+            ("NAME", lattice.name()),
+            ("ONES", &super::circuit::number((1 << lattice.degree()) - 1)),
+        ],
+    )
+}
+
+fn learning(lattice: Lattice) -> String {
+    let sectors = Sector::all(lattice).len().to_string();
+    fill(
+        include_str!("templates/ac_learning.c"),
+        &[("SECTORS", &sectors), ("ORDER", &lattice::orders(lattice))],
+    )
+}
+
+fn wave(lattice: Lattice) -> String {
+    let parity = match lattice {
+        Lattice::Square => "",
+        // Rows are counted from 1 there.
+        Lattice::Hex => "        const bool is_odd = (row & 1U) == 0U;\n",
+    };
+    fill(
+        include_str!("templates/ac_wave.c"),
+        &[
+            ("PLANES", &lattice::planes(lattice).to_string()),
+            ("PARITY_OF_ROW", parity),
+            ("DIRECTIONS_OF_WAVE", &lattice::wave(lattice)),
+        ],
+    )
+}
+
+fn drive() -> String {
+    let nothing = Inputs::default();
+    let asks = Motion::ALL.map(|motion| player::inputs(Some(motion), true, nothing).0.into());
+    let blocks = Motion::ALL.map(|motion| motion.state().drives_towards().unwrap_or(nothing).0.into());
+    fill(
+        include_str!("templates/ac_drive.c"),
+        &[
+            ("CONTROL_FUNCTION", &function(&circuits::control())),
+            ("ASKS", &lattice::list(asks.into_iter())),
+            ("BLOCKS", &lattice::list(blocks.into_iter())),
+        ],
+    )
+}
+
+/// The map in the words that `ac_map` in the header describes.
+pub fn rows(map: &Map) -> Vec<u32> {
+    let shape = Shape::of(map);
+    let mut rows = vec![u32::MAX; shape.length() as usize];
+    for Cell { x, y } in map.free() {
+        let bit = x as usize + 2;
+        rows[(y as usize + 2) * shape.words as usize + bit / 32] &= !(1 << (bit % 32));
+    }
+    rows
+}
+
+fn floor(map: &Map) -> String {
+    let shape = Shape::of(map);
+    let mut text = String::new();
+    for row in rows(map).chunks(shape.words as usize) {
+        for line in row.chunks(8) {
+            let words: Vec<String> = line.iter().map(|word| format!("0x{word:08X}U,")).collect();
+            text += &format!("    {}\n", words.join(" "));
+        }
+    }
+    fill(
+        include_str!("templates/ac_map.c"),
+        &[
+            ("WIDTH", &shape.width.to_string()),
+            ("HEIGHT", &shape.height.to_string()),
+            ("LATTICE", cells_of(map.lattice())),
+            ("FREE", &shape.free.to_string()),
+            ("LENGTH", &shape.length().to_string()),
+            ("ROWS", &text),
+            ("WORDS", &shape.words.to_string()),
+        ],
+    )
+}
+
+fn listing(segments: &[Segment]) -> String {
+    let text = segments
+        .iter()
+        .map(|Segment { motion, ticks }| format!("    {{ {}, {ticks}U }},\n", motion_name(*motion)));
+    fill(
+        include_str!("templates/ac_program.c"),
+        &[("COUNT", &segments.len().to_string()), ("SEGMENTS", &text.collect::<String>())],
+    )
+}

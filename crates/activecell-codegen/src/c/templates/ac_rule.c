@@ -1,0 +1,113 @@
+/*
+ * The published rule: which neighbour becomes the next active cell.
+ *
+ * After Alzoubi and Miraz, Enhancing Robot Navigation Efficiency Using Cellular Automata with Active Cells.
+ */
+#include "activecell.h"
+
+@SECTOR_FUNCTION@
+@DECIDE_FUNCTION@
+@LANE_FUNCTION@
+/* How far two numbers are apart. */
+static uint32_t apart(uint32_t a, uint32_t b)
+{
+    return (a < b) ? (b - a) : (a - b);
+}
+
+@GEOMETRY@
+ac_cell ac_neighbour(ac_cell cell, ac_move direction)
+{
+    /* Columns and rows to the right and down, and one more. */
+    static const uint8_t right[@PARITIES@][AC_DIRECTIONS] = @RIGHT@;
+    static const uint8_t down[AC_DIRECTIONS] = @DOWN@;
+    ac_cell next = cell;
+    if (direction < AC_DIRECTIONS) {
+        const uint32_t x = ((uint32_t)cell.x + right[@PARITY@][direction]) - 1U;
+        const uint32_t y = ((uint32_t)cell.y + down[direction]) - 1U;
+        next.x = (uint16_t)x;
+        next.y = (uint16_t)y;
+    }
+    return next;
+}
+
+bool ac_is_free(const ac_map *map, ac_cell cell)
+{
+    bool is_free = false;
+    if ((cell.x < map->width) && (cell.y < map->height)) {
+        const uint32_t bit = cell.x + 2U;
+        const uint32_t word = map->rows[((cell.y + 2U) * map->words) + (bit >> 5U)];
+        is_free = ((word >> (bit & 31U)) & 1U) == 0U;
+    }
+    return is_free;
+}
+
+/* The cells of a row from a bit on, in the lowest bits; at least five. */
+static uint32_t slice(const uint32_t *row, uint32_t bit)
+{
+    const uint32_t word = bit >> 5U;
+    const uint32_t shift = bit & 31U;
+    return (row[word] >> shift) | ((row[word + 1U] << 1U) << (31U - shift));
+}
+
+uint32_t ac_window(const ac_map *map, ac_cell cell)
+{
+    const uint32_t words = map->words;
+    /* Two rows above the cell, as the map begins with two rows of obstacles. */
+    const uint32_t *const row = &map->rows[cell.y * words];
+@SLICES@
+    return @WINDOW@;
+}
+
+ac_move ac_decide(uint32_t window, uint32_t sector, uint32_t near)
+{
+    const ac_decide_@NAME@_outputs outputs =
+        ac_decide_@NAME@(window & @ONES@, (window >> 8U) & @ONES@, (window >> 16U) & @ONES@, sector, near);
+    return (outputs.enclosed != 0U) ? AC_ENCLOSED : ac_lane_number(outputs.go);
+}
+
+ac_move ac_next(const ac_map *map, ac_cell cell, ac_cell target)
+{
+    ac_move move = AC_OUTSIDE;
+    if ((cell.x < map->width) && (cell.y < map->height)) {
+        const uint32_t distance = ac_distance(cell, target);
+        if (distance == 0U) {
+            move = AC_ARRIVED;
+        } else {
+            move = ac_decide(ac_window(map, cell), ac_sector(cell, target), (distance == 1U) ? 1U : 0U);
+        }
+    }
+    return move;
+}
+
+void ac_replay_start(ac_replay *replay, ac_cell from, ac_cell target)
+{
+    replay->cell = from;
+    replay->target = target;
+    replay->mark = from;
+    replay->since = 0U;
+    replay->until = 1U;
+}
+
+/*
+ * The rule has no memory, so a robot that comes back to a cell circles for ever. One cell is remembered, and another
+ * one instead of it after 1, 2, 4, 8, ... steps: R. Brent, An Improved Monte Carlo Factorization Algorithm, BIT 20, 1980.
+ */
+ac_move ac_replay_step(ac_replay *replay, const ac_map *map)
+{
+    ac_move move = ac_next(map, replay->cell, replay->target);
+    if (move < AC_DIRECTIONS) {
+        const ac_cell next = ac_neighbour(replay->cell, move);
+        if (replay->since == replay->until) {
+            replay->mark = replay->cell;
+            replay->since = 0U;
+            replay->until *= 2U;
+        }
+        if ((next.x == replay->mark.x) && (next.y == replay->mark.y)) {
+            move = AC_TRAPPED;
+        } else {
+            replay->cell = next;
+            replay->since += 1U;
+        }
+    }
+    return move;
+}
