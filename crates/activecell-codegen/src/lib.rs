@@ -13,7 +13,9 @@
 
 pub mod circuits;
 pub mod logic;
+pub mod model;
 mod source;
+mod template;
 pub mod verilog;
 
 pub use source::SourceFile;

@@ -2,10 +2,12 @@
 
 mod control;
 mod decision;
+mod fabric;
 mod sector;
 
 pub use control::control;
 pub use decision::decision;
+pub use fabric::fabric_cell;
 pub use sector::{Bearing, sector};
 
 use crate::logic::{Cube, Expr, Signal};
