@@ -2,11 +2,13 @@
 
 mod control;
 mod decision;
+mod fabric;
 mod player;
 mod sector;
 
 pub use control::control;
 pub use decision::decision;
+pub use fabric::fabric_cell;
 pub use player::player;
 pub use sector::{Bearing, sector};
 

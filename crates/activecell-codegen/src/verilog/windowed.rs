@@ -1,9 +1,9 @@
 //! The navigator whose map lies in block RAM.
 
 use super::module;
-use crate::template::fill;
 use crate::circuits::{decision, sector};
 use crate::model::{Shown, Windowed};
+use crate::template::fill;
 use crate::{Banks, SourceFile};
 use activecell::{Cell, Dir, Error, Lattice, Map, Rng};
 
