@@ -391,7 +391,7 @@ fn plan(crew: &mut Crew, scene: Scene<'_>, limits: Limits, rng: &mut Rng) {
         }
         // In a jam of robots that turn a row that moves up is found soon, and to look for better first would use up the
         // time. Omni robots seldom jam, and come on faster without rows.
-        if !crew.is_best(scene, robot) && !(turning && crew.move_up(scene, robot)) {
+        if !(crew.is_best(scene, robot) || turning && crew.move_up(scene, robot)) {
             crew.push(scene, robot, if turns < FIRST { urgent } else { by_rank }, rng);
         }
         crew.fix(scene, robot);
