@@ -272,6 +272,8 @@ fn what_cannot_be_planned_or_checked_is_told_in_one_line() {
     fs::write(path.join("hex.txt"), format!("lattice=square\n{RIGHT}")).unwrap();
     fs::write(path.join("noise.txt"), "agents=2\nsolution=\n0:(0,0),(1,\n").unwrap();
     fs::write(path.join("huge.json"), "{\"activecell\":\"plan\",\"version\":1,\"lattice\":\"hex\",\"steps\":4000000000,\"robots\":[{\"start\":[0,0],\"moves\":\"\"}]}").unwrap();
+    fs::write(path.join("empty.paths"), "").unwrap();
+    fs::write(path.join("twice.txt"), format!("seed=1\nseed=2\n{RIGHT}")).unwrap();
     let cases = [
         ("fleet rooms.map", 2, ""),
         ("fleet rooms.map --random", 2, ""),
@@ -297,6 +299,12 @@ fn what_cannot_be_planned_or_checked_is_told_in_one_line() {
         ("check rooms.map none.txt", 1, "none.txt: there is no such file"),
         ("check rooms.map noise.txt", 1, "noise.txt line 3, column 12: expected a whole number"),
         ("check rooms.map huge.json", 1, "huge.json: 1 robots with 4000000000 steps are more than"),
+        ("check rooms.map empty.paths", 1, "empty.paths: the file is empty; give one with a plan"),
+        (
+            "check rooms.map twice.txt",
+            1,
+            "twice.txt line 2: `seed=` is stated twice; remove one of the lines",
+        ),
         ("check rooms.map rooms.scen", 1, "rooms.scen line 5: the file ends before `solution=`"),
         ("check rooms.map hex.txt --lattice hex", 2, "--lattice hex: the plan says that it is for squares"),
         ("check rooms.map plan.txt --scen rooms.scen", 1, "robot 0 starts at (0,1), not at its start (0,0)"),
@@ -308,6 +316,49 @@ fn what_cannot_be_planned_or_checked_is_told_in_one_line() {
         assert!(stderr.contains(expected), "{arguments}: {stderr}");
         assert!(expected.is_empty() || stderr.lines().count() == 1, "{stderr}");
     }
+}
+
+#[test]
+fn a_scenario_of_another_map_of_the_same_size_is_told() {
+    let folder = stage();
+    let path = folder.path();
+    fs::copy(path.join("rooms.map"), path.join("other.map")).unwrap();
+    let note = "activecell: note: rooms.scen is for the map \"rooms.map\", this one is \"other.map\"\n";
+    for (arguments, noted) in [
+        ("fleet rooms.map --scen rooms.scen --first --save plan.json", ""),
+        ("fleet other.map --scen rooms.scen --first", note),
+        ("fleet other.map --scen rooms.scen --first -q", ""),
+        ("check other.map plan.json --scen rooms.scen", note),
+        ("scen rooms.scen", ""),
+        ("scen rooms.scen --map other.map", note),
+    ] {
+        let (code, _, stderr) = run(path, arguments);
+        assert_eq!((code, stderr.as_str()), (0, noted), "{arguments}");
+    }
+    // Scenarios name their maps with folders of any system.
+    let text = fs::read_to_string(path.join("rooms.scen")).unwrap();
+    for name in ["maps/rooms.map", "C:\\maps\\rooms.map"] {
+        fs::write(path.join("far.scen"), text.replace("rooms.map", name)).unwrap();
+        assert_eq!(run(path, "fleet rooms.map --scen far.scen --first").2, "", "{name}");
+    }
+}
+
+#[test]
+fn one_is_not_many() {
+    let folder = stage();
+    let path = folder.path();
+    fs::write(path.join("one.scen"), "0 pipe.txt 4 1 0 0 1 0 1\n").unwrap();
+    let (_, stdout, _) = run(path, "fleet pipe.txt --scen one.scen --save one.json --picture one.svg");
+    assert!(stdout.starts_with("fleet: 1 robot, all arrive\n"), "{stdout}");
+    assert!(stdout.contains("makespan       1 step\n"), "{stdout}");
+    let svg = fs::read_to_string(path.join("one.svg")).unwrap();
+    assert!(svg.contains("pipe · 1 robot, 1 step, sum of costs 1 (lower bound 1)"), "{svg}");
+    fs::write(path.join("cell.txt"), ".\n").unwrap();
+    let (_, _, stderr) = run(path, "fleet cell.txt --random -n 2");
+    assert!(stderr.contains("the map has 1 cell; take fewer robots"), "{stderr}");
+    let (_, stdout, _) = run(path, "simulate one.json");
+    assert!(stdout.starts_with("plan: 1 robot, 1 move, 0 rings;"), "{stdout}");
+    assert!(stdout.contains("makespan       planned 1 step; "), "{stdout}");
 }
 
 /// Real scenarios, planned, saved in every format, and checked.

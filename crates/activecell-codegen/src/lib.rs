@@ -11,11 +11,15 @@
 //! assert!(text.contains("module decide_square"));
 //! ```
 
+mod banks;
 pub mod c;
 pub mod circuits;
+mod images;
 pub mod logic;
 pub mod model;
 mod source;
+mod template;
 pub mod verilog;
 
+pub use banks::{Banks, MOST_STORED};
 pub use source::SourceFile;

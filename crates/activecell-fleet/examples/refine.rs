@@ -2,7 +2,7 @@
 //! `refine MAP SCEN N SECONDS [THREADS [SEED]]`. Time is that of the processor, shared by the threads.
 
 use activecell::{Cell, Team, check_plan};
-use activecell_fleet::{Advance, Arbiter, Fields, Floor, Goal, Refiner, Search};
+use activecell_fleet::{Advance, Arbiter, Fields, Floor, Refiner, Search};
 use activecell_formats::movingai::{read_map, read_scen};
 use std::time::Instant;
 
@@ -25,12 +25,9 @@ fn main() -> Result<(), Failure> {
     let team = Team::new(&map, cells(|row| row.from), cells(|row| row.to))?;
     let clock = Instant::now();
     let floor = Floor::new(&map);
-    let numbers = |cells: &[Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
-    let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
+    let (starts, targets) = (floor.numbers_of(team.starts()), floor.numbers_of(team.targets()));
     let mut fields = Fields::new(&floor);
-    let slots = fields.request(&floor, &targets, threads)?;
-    let goals: Vec<Goal> =
-        targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+    let goals = fields.goals(&floor, &targets, threads)?;
     let mut search = Search::new(Arbiter::new(&floor, &fields, goals.clone(), seed), &starts, seed);
     while search.loss().is_none() && search.advance() != Advance::Exhausted {}
     let first = search.plan().ok_or("no plan")?;

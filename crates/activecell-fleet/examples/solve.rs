@@ -1,7 +1,7 @@
 //! Solves the first N rows of a scenario and says how long it took: `solve MAP SCEN N [SECONDS [SEED [LATTICE]]]`. With 0
 //! seconds it stops at the first plan. SCEN `random` draws starts and targets.
 
-use activecell::{Lattice, Map, Rng, Team, check_plan};
+use activecell::{Lattice, Map, Team, check_plan};
 use activecell_fleet::{Limits, Options, solve};
 use activecell_formats::movingai::{read_map, read_scen};
 use std::time::{Duration, Instant};
@@ -52,16 +52,7 @@ fn main() -> Result<(), Failure> {
 
 fn team(map: &Map, scen: &str, robots: usize) -> Result<Team, Failure> {
     if scen == "random" {
-        let mut rng = Rng::new(1);
-        let mut draw = || {
-            let mut cells: Vec<_> = map.free().collect();
-            for i in (1..cells.len()).rev() {
-                cells.swap(i, rng.below(i as u32 + 1) as usize);
-            }
-            cells.truncate(robots);
-            cells
-        };
-        return Ok(Team::new(map, draw(), draw())?);
+        return Ok(Team::random(map, robots, 1)?);
     }
     let rows = read_scen(&std::fs::read(scen)?)?;
     let rows = &rows[..robots.min(rows.len())];

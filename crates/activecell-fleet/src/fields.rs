@@ -6,6 +6,15 @@ use std::cmp::Ordering;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
+/// Where a robot wants to go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Goal {
+    /// The number of the target cell.
+    pub target: u32,
+    /// The slot of its field.
+    pub slot: u32,
+}
+
 /// Fields of targets, kept once each. A field is known by its slot.
 ///
 /// ```
@@ -71,6 +80,15 @@ impl Fields {
             self.made[slot as usize] = field;
         }
         Ok(targets.iter().map(|target| self.slots[target]).collect())
+    }
+
+    /// The targets as goals; their fields are [requested](Self::request).
+    ///
+    /// # Errors
+    /// As [`Self::request`].
+    pub fn goals(&mut self, floor: &Floor, targets: &[u32], threads: usize) -> Result<Vec<Goal>, Error> {
+        let slots = self.request(floor, targets, threads)?;
+        Ok(targets.iter().zip(slots).map(|(&target, slot)| Goal { target, slot }).collect())
     }
 
     /// Forgets the field of a target, if there is one. Its slot will be that of another target.

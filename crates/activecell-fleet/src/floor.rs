@@ -86,6 +86,11 @@ impl Floor {
         self.order.number(cell)
     }
 
+    /// The numbers of cells of the map.
+    pub fn numbers_of(&self, cells: &[Cell]) -> Vec<u32> {
+        cells.iter().map(|&cell| self.number(cell)).collect()
+    }
+
     /// The cell of a number.
     pub const fn cell(&self, number: u32) -> Cell {
         self.order.cell(number)

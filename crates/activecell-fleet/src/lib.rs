@@ -32,8 +32,8 @@ mod room;
 mod search;
 mod solve;
 
-pub use arbitrate::{Arbiter, Goal};
-pub use fields::Fields;
+pub use arbitrate::Arbiter;
+pub use fields::{Fields, Goal};
 pub use floor::{Floor, NONE};
 pub use guide::{Dive, Guide, Problem, dive};
 pub use lifelong::{

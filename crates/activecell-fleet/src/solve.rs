@@ -1,7 +1,7 @@
 //! From a map and a team to a plan: the fields, a first plan, dives with guidance, refinement, limits and history.
 
-use crate::arbitrate::{Arbiter, Goal};
-use crate::fields::Fields;
+use crate::arbitrate::Arbiter;
+use crate::fields::{Fields, Goal};
 use crate::floor::Floor;
 use crate::guide::{Budget, Problem, dives};
 use crate::refine::Refiner;
@@ -137,35 +137,7 @@ pub fn solve(
     options: &Options,
     watch: impl FnMut(&Improvement),
 ) -> Result<Outcome, Error> {
-    let clock = Instant::now();
-    // The map may be another.
-    team.check(map)?;
-    if !team.bodies().are_cells() {
-        return solve_in_room(map, team, &KeepOuts::default(), options, watch);
-    }
-    let floor = Floor::new(map);
-    let numbers =
-        |cells: &[activecell::Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
-    let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
-    if starts.iter().zip(&targets).any(|(&start, &target)| !floor.connected(start, target)) {
-        return Ok(nothing(Ending::Exhausted, floor.bytes()));
-    }
-    let mut fields = Fields::new(&floor);
-    let mut slots = Vec::with_capacity(targets.len());
-    for part in targets.chunks(FIELDS_AT_ONCE) {
-        slots.extend(fields.request(&floor, part, options.threads)?);
-        if options.limits.time.is_some_and(|time| clock.elapsed() >= time) {
-            return Ok(nothing(Ending::Time, floor.bytes() + fields.bytes()));
-        }
-    }
-    let goals: Vec<Goal> =
-        targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
-    let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
-    let arbiter = Arbiter::new(&floor, &fields, goals.clone(), options.seed);
-    let search = Search::new(arbiter, &starts, options.seed);
-    let mut outcome = Run::new(Some(problem), options, search, clock, watch).until_stopped();
-    outcome.bytes += floor.bytes() + fields.bytes();
-    Ok(outcome)
+    solve_past(map, team, &KeepOuts::default(), options, watch)
 }
 
 /// The same past cells that are closed for a time; [`activecell::check_keep_outs`] tells whether a plan keeps out of them.
@@ -193,11 +165,39 @@ pub fn solve_past(
     options: &Options,
     watch: impl FnMut(&Improvement),
 ) -> Result<Outcome, Error> {
-    if keep_outs.is_empty() {
-        return solve(map, team, options, watch);
-    }
+    let clock = Instant::now();
+    // The map may be another.
     team.check(map)?;
-    solve_in_room(map, team, keep_outs, options, watch)
+    if keep_outs.is_empty() && team.bodies().are_cells() {
+        solve_cells(map, team, options, clock, watch)
+    } else {
+        solve_in_room(map, team, keep_outs, options, clock, watch)
+    }
+}
+
+/// Looks for plans of robots of one cell, nothing of which is closed.
+fn solve_cells(
+    map: &Map,
+    team: &Team,
+    options: &Options,
+    clock: Instant,
+    watch: impl FnMut(&Improvement),
+) -> Result<Outcome, Error> {
+    let floor = Floor::new(map);
+    let (starts, targets) = (floor.numbers_of(team.starts()), floor.numbers_of(team.targets()));
+    if starts.iter().zip(&targets).any(|(&start, &target)| !floor.connected(start, target)) {
+        return Ok(nothing(Ending::Exhausted, floor.bytes()));
+    }
+    let mut fields = Fields::new(&floor);
+    let Some(goals) = goals_in_time(&mut fields, &floor, &targets, options, clock)? else {
+        return Ok(nothing(Ending::Time, floor.bytes() + fields.bytes()));
+    };
+    let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
+    let arbiter = Arbiter::new(&floor, &fields, goals.clone(), options.seed);
+    let search = Search::new(arbiter, &starts, options.seed);
+    let mut outcome = Run::new(Some(problem), options, search, clock, watch).until_stopped();
+    outcome.bytes += floor.bytes() + fields.bytes();
+    Ok(outcome)
 }
 
 /// Looks for plans of bodies, or among closed cells. They are not refined: refinement knows robots of one cell only.
@@ -206,30 +206,28 @@ fn solve_in_room(
     team: &Team,
     keep_outs: &KeepOuts,
     options: &Options,
+    clock: Instant,
     watch: impl FnMut(&Improvement),
 ) -> Result<Outcome, Error> {
-    let clock = Instant::now();
     let (floor, room) = (Floor::new(map), Room::new(map, team, keep_outs));
-    let numbers =
-        |cells: &[activecell::Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
-    let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
+    let (starts, targets) = (floor.numbers_of(team.starts()), floor.numbers_of(team.targets()));
     let connected =
         |(robot, (&start, &target)): (u32, (&u32, &u32))| room.floor(robot).connected(start, target);
     if room.is_lost() || !(0..).zip(starts.iter().zip(&targets)).all(connected) {
-        let (bytes, ending) = (floor.bytes() + room.bytes(), Ending::Exhausted);
-        return Ok(Outcome { plan: None, ending, history: Vec::new(), lower_bound: 0, steps: 0, bytes });
+        return Ok(nothing(Ending::Exhausted, floor.bytes() + room.bytes()));
     }
     let mut fields = Fields::new(&floor);
     let mut goals = vec![Goal { target: 0, slot: 0 }; targets.len()];
-    for (size, floor) in room.floors().iter().enumerate() {
+    for (size, own_floor) in room.floors().iter().enumerate() {
         // No two robots share a target, so that the fields of all sizes fit into one collection.
         let robots: Vec<usize> =
             (0..targets.len()).filter(|&robot| room.size(robot as u32) == size).collect();
         let own: Vec<u32> = robots.iter().map(|&robot| targets[robot]).collect();
-        for ((robot, target), slot) in
-            robots.into_iter().zip(&own).zip(fields.request(floor, &own, options.threads)?)
-        {
-            goals[robot] = Goal { target: *target, slot };
+        let Some(own) = goals_in_time(&mut fields, own_floor, &own, options, clock)? else {
+            return Ok(nothing(Ending::Time, floor.bytes() + room.bytes() + fields.bytes()));
+        };
+        for (robot, goal) in robots.into_iter().zip(own) {
+            goals[robot] = goal;
         }
     }
     let arbiter = Arbiter::new(&floor, &fields, goals, options.seed).in_room(&room);
@@ -237,6 +235,24 @@ fn solve_in_room(
     let mut outcome = Run::new(None, options, search, clock, watch).until_stopped();
     outcome.bytes += floor.bytes() + room.bytes() + fields.bytes();
     Ok(outcome)
+}
+
+/// The targets as goals, with their fields; none if time ends.
+fn goals_in_time(
+    fields: &mut Fields,
+    floor: &Floor,
+    targets: &[u32],
+    options: &Options,
+    clock: Instant,
+) -> Result<Option<Vec<Goal>>, Error> {
+    let mut goals = Vec::with_capacity(targets.len());
+    for part in targets.chunks(FIELDS_AT_ONCE) {
+        goals.extend(fields.goals(floor, part, options.threads)?);
+        if options.limits.time.is_some_and(|time| clock.elapsed() >= time) {
+            return Ok(None);
+        }
+    }
+    Ok(Some(goals))
 }
 
 /// What comes of it if the search does not even begin.
@@ -376,12 +392,13 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
         let Some(&(best, _)) = self.best.as_ref() else { return };
         let Limits { time, bytes, .. } = self.options.limits;
         let (seed, threads, clock) = (self.options.seed, self.options.threads, self.clock);
+        let distances = self.search.distances().to_vec();
         // Refinement gets the rest of the time.
         if self.limit().is_some() {
             return;
         }
         let stop = || time.is_some_and(|time| clock.elapsed() >= time.mul_f64(DIVES_SHARE));
-        dives(problem, seed, best, &Budget { threads, bytes, stop }, |dive| {
+        dives(problem, &distances, seed, best, &Budget { threads, bytes, stop }, |dive| {
             if let Some(plan) = dive.plan(problem) {
                 self.steps += plan.steps() as u64;
                 self.take(dive.sum_of_costs, || plan);
@@ -395,7 +412,8 @@ impl<'a, W: FnMut(&Improvement)> Run<'a, W> {
         let Some((mut best, plan)) = self.best.take() else { return Ending::Exhausted };
         let Problem { floor, fields, goals, starts } = problem;
         let Options { seed, limits, .. } = *self.options;
-        let mut refiner = Refiner::new(floor, fields, goals, &plan, seed);
+        let distances = self.search.distances().to_vec();
+        let mut refiner = Refiner::with_distances(floor, fields, goals, distances, &plan, seed);
         drop(plan);
         let clock = self.clock;
         let late = || limits.time.is_some_and(|time| clock.elapsed() >= time);

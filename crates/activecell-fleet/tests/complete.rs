@@ -1,7 +1,7 @@
 //! The search against an exhaustive one over all configurations, on floors so small that it can be done.
 
 use activecell::{Cell, Lattice, Map, Rng, Team, check_plan};
-use activecell_fleet::{Advance, Arbiter, Fields, Floor, Goal, Limits, Options, Search, solve};
+use activecell_fleet::{Advance, Arbiter, Fields, Floor, Limits, Options, Search, solve};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Every configuration that one step leads to.
@@ -49,9 +49,7 @@ fn least_loss(map: &Map, team: &Team) -> Option<u64> {
 
 fn some_cells(free: &[Cell], count: usize, rng: &mut Rng) -> Vec<Cell> {
     let mut cells = free.to_vec();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells.truncate(count);
     cells
 }
@@ -105,14 +103,12 @@ fn a_search_that_ends_has_the_least_loss() {
     for seed in 10_000..11_500 {
         let Some((map, team)) = small_task(seed) else { continue };
         let floor = Floor::new(&map);
-        let numbers = |cells: &[Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
-        let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
+        let (starts, targets) = (floor.numbers_of(team.starts()), floor.numbers_of(team.targets()));
         if starts.iter().zip(&targets).any(|(&start, &target)| !floor.connected(start, target)) {
             continue;
         }
         let mut fields = Fields::new(&floor);
-        let slots = fields.request(&floor, &targets, 1).unwrap();
-        let goals = targets.iter().zip(slots).map(|(&target, slot)| Goal { target, slot }).collect();
+        let goals = fields.goals(&floor, &targets, 1).unwrap();
         let mut search = Search::new(Arbiter::new(&floor, &fields, goals, seed), &starts, seed);
         let ended = (0..1_000_000).any(|_| search.advance() == Advance::Exhausted);
         assert!(ended, "{seed}");

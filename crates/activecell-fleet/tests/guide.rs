@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot make its map should stop")]
 
 use activecell::{Lattice, Map, Rng, Team, check_plan};
-use activecell_fleet::{Fields, Floor, Goal, Guide, Limits, Options, Problem, dive, solve};
+use activecell_fleet::{Fields, Floor, Guide, Limits, Options, Problem, dive, solve};
 
 const GUIDES: [Guide; 6] =
     [Guide::Plain, Guide::Local(1), Guide::Local(10), Guide::Local(20), Guide::Spread(5), Guide::Spread(20)];
@@ -20,9 +20,7 @@ fn crowd(seed: u64) -> (Map, Team) {
     let robots = 1 + (part.len() as f64 * 0.8 * rng.unit().powi(2)) as usize;
     let mut draw = || {
         let mut cells = part.clone();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        rng.shuffle(&mut cells);
         cells.truncate(robots);
         cells
     };
@@ -36,12 +34,9 @@ fn plans_of_every_kind_of_dive_keep_the_rules() {
     for seed in 0..60 {
         let (map, team) = crowd(seed);
         let floor = Floor::new(&map);
-        let numbers = |cells: &[_]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
-        let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
+        let (starts, targets) = (floor.numbers_of(team.starts()), floor.numbers_of(team.targets()));
         let mut fields = Fields::new(&floor);
-        let slots = fields.request(&floor, &targets, 1).unwrap();
-        let goals: Vec<Goal> =
-            targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+        let goals = fields.goals(&floor, &targets, 1).unwrap();
         let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
         let found = GUIDES.map(|guide| dive(problem, guide, seed, &|_| false));
         for (guide, found) in GUIDES.iter().zip(&found) {

@@ -5,22 +5,9 @@
 use activecell::{Cell, Lattice, Map, Rng, Team, check_plan};
 use activecell_fleet::{Ending, Limits, Options, solve};
 
+/// A team in the largest part of the floor, as many robots as are asked for or fit.
 fn random_team(map: &Map, robots: usize, seed: u64) -> Team {
-    let mut rng = Rng::new(seed);
-    // Within the largest part of the floor, so that everyone has a way.
-    let cells = map.free().collect::<Vec<_>>();
-    let parts = cells.iter().map(|&cell| map.reachable(&[cell]).unwrap());
-    let part = parts.max_by_key(activecell::BitPlane::count_ones).unwrap();
-    let cells: Vec<Cell> = cells.into_iter().filter(|cell| part.get(cell.x as u32, cell.y as u32)).collect();
-    let mut draw = || {
-        let mut cells = cells.clone();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
-        cells.truncate(robots);
-        cells
-    };
-    Team::new(map, draw(), draw()).unwrap()
+    Team::random(map, robots.min(map.largest_region().len()), seed).unwrap()
 }
 
 fn options(seed: u64, steps: u64, first: bool) -> Options {
@@ -74,8 +61,7 @@ fn crowds_with_hardly_a_free_cell_are_solved() {
     for seed in 0..30 {
         let lattice = Lattice::ALL[seed as usize % 2];
         let map = Map::random(lattice, 12, 12, 0.1, seed).unwrap();
-        let all = random_team(&map, usize::MAX, seed);
-        let team = random_team(&map, all.robots() * 95 / 100, seed);
+        let team = random_team(&map, map.largest_region().len() * 95 / 100, seed);
         let outcome = solve(&map, &team, &options(seed, 100_000, true), |_| {}).unwrap();
         assert_eq!(check_plan(&map, &team, &outcome.plan.unwrap()), Ok(()), "{lattice} {seed}");
     }

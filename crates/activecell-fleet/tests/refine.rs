@@ -7,9 +7,7 @@ use activecell_fleet::{Advance, Arbiter, Fields, Floor, Goal, Refiner, Search};
 fn team(map: &Map, floor: &Floor, robots: usize, rng: &mut Rng) -> Team {
     let mut shuffled = || {
         let mut cells: Vec<Cell> = map.free().collect();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        rng.shuffle(&mut cells);
         cells
     };
     let pairs = shuffled().into_iter().zip(shuffled());
@@ -21,12 +19,9 @@ fn team(map: &Map, floor: &Floor, robots: usize, rng: &mut Rng) -> Team {
 /// Calls `with` with the floor's parts and the first plan, if there is one within some steps of search.
 fn first_plan(map: &Map, team: &Team, seed: u64, with: impl FnOnce(&Floor, &Fields, &[Goal], &Plan)) {
     let floor = Floor::new(map);
-    let numbers = |cells: &[Cell]| cells.iter().map(|&cell| floor.number(cell)).collect::<Vec<_>>();
-    let (starts, targets) = (numbers(team.starts()), numbers(team.targets()));
+    let (starts, targets) = (floor.numbers_of(team.starts()), floor.numbers_of(team.targets()));
     let mut fields = Fields::new(&floor);
-    let slots = fields.request(&floor, &targets, 1).expect("fields");
-    let goals: Vec<Goal> =
-        targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+    let goals = fields.goals(&floor, &targets, 1).expect("fields");
     let mut search = Search::new(Arbiter::new(&floor, &fields, goals.clone(), seed), &starts, seed);
     for _ in 0..20_000 {
         if search.advance() == Advance::Better {

@@ -1,13 +1,11 @@
 //! Steps of the arbiter keep the rules whatever it is told, and it always finds one if it is told nothing.
 
 use activecell::{Cell, Lattice, Map, Plan, Rng, Team, check_plan};
-use activecell_fleet::{Arbiter, Fields, Floor, Goal, NONE};
+use activecell_fleet::{Arbiter, Fields, Floor, NONE};
 
 fn draw(cells: &[u32], count: usize, rng: &mut Rng) -> Vec<u32> {
     let mut cells = cells.to_vec();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells.truncate(count);
     cells
 }
@@ -36,8 +34,7 @@ fn every_step_keeps_the_rules() {
         let robots = 1 + rng.below(part.len() as u32) as usize;
         let (mut now, targets) = (draw(&part, robots, &mut rng), draw(&part, robots, &mut rng));
         let mut fields = Fields::new(&floor);
-        let slots = fields.request(&floor, &targets, 1).unwrap();
-        let goals = targets.iter().zip(slots).map(|(&target, slot)| Goal { target, slot }).collect();
+        let goals = fields.goals(&floor, &targets, 1).unwrap();
         let mut arbiter = Arbiter::new(&floor, &fields, goals, seed);
         arbiter.shy = rng.chance(0.5);
         let mut next = vec![NONE; robots];
@@ -79,9 +76,7 @@ fn the_first_in_order_comes_nearer() {
         let robots = 1 + rng.below(cells.len() as u32) as usize;
         let (now, targets) = (draw(&cells, robots, &mut rng), draw(&cells, robots, &mut rng));
         let mut fields = Fields::new(&floor);
-        let slots = fields.request(&floor, &targets, 2).unwrap();
-        let goals: Vec<Goal> =
-            targets.iter().zip(slots).map(|(&target, slot)| Goal { target, slot }).collect();
+        let goals = fields.goals(&floor, &targets, 2).unwrap();
         let mut arbiter = Arbiter::new(&floor, &fields, goals.clone(), seed);
         let (mut next, order) = (vec![NONE; robots], (0..robots as u32).collect::<Vec<_>>());
         assert!(arbiter.step(&now, &mut next, &order, &[]));

@@ -74,22 +74,9 @@ proptest! {
     #[test]
     fn changed_files(
         file in prop::sample::select(good_files()),
-        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..4_u8), 1..6),
+        changes in common::changes(),
     ) {
-        let mut bytes = file;
-        for (index, byte, kind) in changes {
-            if bytes.is_empty() {
-                break;
-            }
-            let at = index.index(bytes.len());
-            match kind {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                2 => drop(bytes.remove(at)),
-                _ => bytes.truncate(at),
-            }
-        }
-        read_all(&bytes);
+        read_all(&common::changed(file, changes));
     }
 
     /// With a right checksum the header gets past the first check of a PNG.

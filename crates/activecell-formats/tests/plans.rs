@@ -1,6 +1,8 @@
 //! Plan files: what was written is read again, what other tools write is read, and what is wrong is told with its place.
 #![expect(clippy::unwrap_used, reason = "a test may stop at the first surprise")]
 
+mod common;
+
 use activecell::{Bodies, Cell, KeepOut, Lattice, Map, Plan};
 use activecell_formats::plan::{MAX_PLAN_CELLS, PlanFile, PlanFormat, Stated, read_plan};
 use proptest::prelude::*;
@@ -105,24 +107,11 @@ proptest! {
     fn mangled_bytes_never_panic(
         (lattice, plan) in plans(),
         format in prop::sample::select(PlanFormat::ALL.to_vec()),
-        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>(), 0..5_u8), 1..6),
+        changes in common::changes(),
     ) {
         let mut file = PlanFile::new(plan);
         file.lattice = Some(lattice);
-        let mut bytes = file.write(format).unwrap().into_bytes();
-        for (index, byte, kind) in changes {
-            if bytes.is_empty() {
-                break;
-            }
-            let at = index.index(bytes.len());
-            match kind {
-                0 => bytes[at] = byte,
-                1 => bytes.insert(at, byte),
-                2 => drop(bytes.remove(at)),
-                3 => bytes.insert(at, b"0123456789(),;:->.\n"[usize::from(byte) % 19]),
-                _ => bytes.truncate(at),
-            }
-        }
+        let bytes = common::changed(file.write(format).unwrap().into_bytes(), changes);
         if let Err(error) = read_plan(&bytes) {
             prop_assert!(!error.to_string().contains(char::is_control), "{error:?}");
         }
@@ -179,7 +168,11 @@ fn what_other_tools_write_is_read() {
 #[test]
 fn faults_have_their_place() {
     let cases = [
-        ("", "line 1: the file ends before `solution=`"),
+        ("", "the file is empty; give one with a plan, of no robots in .txt or .json"),
+        ("\u{feff} \r\n", "the file is empty"),
+        ("agents=1\n", "line 1: the file ends before `solution=`"),
+        ("seed=1\nsoc=3\nseed=1\nsolution=\n", "line 3: `seed=` is stated twice; remove one of the lines"),
+        ("goals=(0,0)\nother=1\nother=2\ngoals=\nsolution=\n", "line 4: `goals=` is stated twice"),
         ("agents=x\nsolution=\n", "line 1, column 8: agents is `x`; give a whole number from 0"),
         ("starts=(0,0)(1,1)\nsolution=\n", "line 1, column 13: expected `,`, found `(`"),
         ("solution=\n0:(0,0),\n2:(0,0),\n", "line 3, column 2: step 2 where step 1 is due"),

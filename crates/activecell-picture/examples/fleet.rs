@@ -3,7 +3,7 @@
 
 #![expect(clippy::print_stdout, reason = "an example that says what it wrote")]
 
-use activecell::{Cell, Lattice, Map, Rng, Team, check_plan};
+use activecell::{Lattice, Map, Team, check_plan};
 use activecell_fleet::{Limits, Options, solve};
 use activecell_formats::movingai::{read_map, read_scen};
 use activecell_picture::{FilmLimits, FleetPicture, FleetView, fleet_gif, fleet_png, fleet_svg};
@@ -37,6 +37,7 @@ fn main() -> Result<(), Failure> {
         team: &team,
         plan: &plan,
         lower_bound,
+        endless: false,
         view: FleetView::Fitting,
     };
     let number = |i: usize, usual: usize| rest.get(i).map_or(Ok(usual), |text: &String| text.parse());
@@ -74,14 +75,5 @@ fn team(map: &Map, scen: &str, robots: usize) -> Result<Team, Failure> {
             rows.iter().map(|row| row.to).collect(),
         )?);
     }
-    let mut rng = Rng::new(1);
-    let mut draw = || {
-        let mut cells: Vec<Cell> = map.free().collect();
-        for i in (1..cells.len()).rev() {
-            cells.swap(i, rng.below(i as u32 + 1) as usize);
-        }
-        cells.truncate(robots);
-        cells
-    };
-    Ok(Team::new(map, draw(), draw())?)
+    Ok(Team::random(map, robots, 1)?)
 }

@@ -38,8 +38,10 @@ pub(crate) enum Key {
     Expected,
     RobotStart,
     RobotTarget,
+    RobotEnd,
     RobotWay,
     Robot,
+    RobotGoingOn,
     RobotAtRest,
     TargetCell,
     /// The visits to the busiest cells.
@@ -71,8 +73,10 @@ impl Key {
             Self::Beam => "beams",
             Self::Mover => "walker",
             Self::Expected => "expected there",
+            Self::RobotEnd => "at the end",
             Self::RobotWay => "way",
             Self::Robot => "robot, in its target's colour",
+            Self::RobotGoingOn => "robot, coloured by where it is at the end",
             Self::RobotAtRest => "at its target",
             Self::Height => return heights(map),
             Self::Traffic(most) => return format!("visits a cell: 1 to {most} or more"),
@@ -91,7 +95,7 @@ impl Key {
             | Self::Believed
             | Self::Beam
             | Self::RobotWay => 2.0,
-            Self::Robot | Self::RobotAtRest => 2.9,
+            Self::Robot | Self::RobotGoingOn | Self::RobotAtRest => 2.9,
             Self::Wave | Self::Height => 4.0,
             Self::Traffic(_) => 8.0,
             Self::Turn => 0.8,
@@ -175,12 +179,14 @@ impl Key {
                 scale(shapes, [x, y], [width, size], tints as usize, tint);
             }
             Self::RobotStart => shapes.push(fleet::start(middle, 1.3 * size, BLUE)),
-            Self::RobotTarget => shapes.push(fleet::target(middle, 1.5 * size, BLUE)),
+            Self::RobotTarget | Self::RobotEnd => shapes.push(fleet::target(middle, 1.5 * size, BLUE)),
             Self::RobotWay => {
                 let line = Line { opacity: 0.7, ..Line::new(BLUE, 2.0) };
                 shapes.push(Shape::lines(vec![vec![[x + 3.0, y], [x + width - 3.0, y]]], line));
             }
-            Self::Robot | Self::RobotAtRest => fleet::three(shapes, [x, y], size, self == Self::RobotAtRest),
+            Self::Robot | Self::RobotGoingOn | Self::RobotAtRest => {
+                fleet::three(shapes, [x, y], size, self == Self::RobotAtRest);
+            }
             Self::TargetCell => {
                 let side = 0.95 * size;
                 let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);

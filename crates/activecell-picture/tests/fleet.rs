@@ -19,7 +19,7 @@ fn case(lattice: Lattice, robots: i32, steps: usize) -> (Map, Team, Plan) {
 }
 
 fn picture<'a>(map: &'a Map, team: &'a Team, plan: &'a Plan, view: FleetView) -> FleetPicture<'a> {
-    FleetPicture { map, title: "rows <1>", team, plan, lower_bound: Some(7), view }
+    FleetPicture { map, title: "rows <1>", team, plan, lower_bound: Some(7), endless: false, view }
 }
 
 fn frames(data: &[u8]) -> (usize, [u16; 2]) {
@@ -50,6 +50,18 @@ fn the_same_plan_gives_the_same_bytes() {
         assert_eq!(film, fleet_gif(&drawn, &FilmLimits::default()).unwrap());
         assert_eq!((film.frames_a_step, film.steps_a_frame, film.frames), (6, 1, 361));
         assert_eq!(frames(&film.gif).0, 361);
+    }
+}
+
+#[test]
+fn runs_without_end_have_no_targets_and_no_costs() {
+    let (map, team, plan) = case(Lattice::Hex, 3, 20);
+    for view in [FleetView::Ways, FleetView::Traffic] {
+        let drawn = FleetPicture { endless: true, ..picture(&map, &team, &plan, view) };
+        let svg = fleet_svg(&drawn);
+        assert!(svg.contains("rows &lt;1&gt; · 3 robots, 20 steps<"), "{svg}");
+        assert!(!svg.contains("target") && !svg.contains("sum of costs"), "{svg}");
+        assert_eq!(svg.contains("at the end"), view == FleetView::Ways);
     }
 }
 

@@ -35,6 +35,20 @@ impl Rng {
         (((self.next_u64() >> 32) * bound as u64) >> 32) as u32
     }
 
+    /// Puts items into an order by chance, every order equally likely (R. Durstenfeld, *Algorithm 235: Random
+    /// Permutation*, 1964).
+    ///
+    /// ```
+    /// let mut order = [0, 1, 2, 3];
+    /// activecell::Rng::new(1).shuffle(&mut order);
+    /// assert_eq!(order, [0, 1, 3, 2]);
+    /// ```
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for last in (1..items.len()).rev() {
+            items.swap(last, self.below(last as u32 + 1) as usize);
+        }
+    }
+
     /// True with this probability.
     pub fn chance(&mut self, probability: f64) -> bool {
         ((self.next_u64() >> 11) as f64) < probability * (1u64 << 53) as f64

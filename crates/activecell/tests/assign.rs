@@ -52,9 +52,7 @@ fn hungarian(costs: &[Vec<i64>]) -> i64 {
 /// The cells of a floor in an order of chance.
 fn shuffled(map: &Map, rng: &mut Rng) -> Vec<Cell> {
     let mut cells: Vec<Cell> = map.free().collect();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells
 }
 

@@ -14,9 +14,7 @@ fn walk(lattice: Lattice, seed: u64) -> Option<(Map, Team, Plan)> {
     if robots == 0 {
         return None;
     }
-    for i in (1..free.len()).rev() {
-        free.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut free);
     let mut cells = free[..robots].to_vec();
     for step in 0..rng.below(12) as usize {
         let now = cells[step * robots..].to_vec();

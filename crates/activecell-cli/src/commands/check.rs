@@ -15,6 +15,7 @@ pub(crate) fn run(args: CheckArgs, terminal: &Terminal) -> anyhow::Result<()> {
     let bytes = files::read_bytes(&path, MAX_PLAN_BYTES)?;
     let file = read_plan(&bytes).map_err(|error| error.in_file(&path))?;
     drop(bytes);
+    let map_path = map_args.path.clone();
     let map = load::map(&on_lattice(map_args, file.lattice)?, None, terminal)?.map;
     if file.map.as_ref().is_some_and(|made_on| made_on.obstacles() != map.obstacles()) {
         terminal.note("note: the plan was made on another map");
@@ -27,7 +28,10 @@ pub(crate) fn run(args: CheckArgs, terminal: &Terminal) -> anyhow::Result<()> {
         None => stated().with_context(|| path.display().to_string())?,
     };
     let team = match &scen {
-        Some(scen) => Ok(team::of_scenario(&map, scen, Some(robots), &group, &file.bodies)?),
+        Some(scen) => {
+            let map = (&map, map_path.as_path());
+            Ok(team::of_scenario(map, scen, Some(robots), &group, &file.bodies, terminal)?)
+        }
         None => Team::new(&map, file.starts().to_vec(), file.targets().to_vec())
             .and_then(|team| team.with_bodies(&map, bodies.clone())),
     };

@@ -52,9 +52,15 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
         say_what_is_not_held(args, &formats, &team, &keep_outs, terminal);
         // A picture that fails costs no plan.
         let title = args.map.path.file_stem().unwrap_or_default().to_string_lossy();
-        let (lower_bound, view) = (Some(report.lower_bound), FleetView::default());
-        let picture =
-            FleetPicture { map: &map, title: &title, team: &team, plan: &file.plan, lower_bound, view };
+        let picture = FleetPicture {
+            map: &map,
+            title: &title,
+            team: &team,
+            plan: &file.plan,
+            lower_bound: Some(report.lower_bound),
+            endless: false,
+            view: FleetView::default(),
+        };
         draw(&pictures, &picture, terminal)?;
     }
     let text = if args.json {
@@ -70,13 +76,17 @@ pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done>
 fn team(args: &FleetArgs, map: &Map, terminal: &Terminal) -> anyhow::Result<Team> {
     let group = Group::read(&args.group)?;
     let team = match (&args.scen, args.robots) {
-        (Some(scen), robots) => team::of_scenario(map, scen, robots, &group, &Bodies::default())?,
+        (Some(scen), robots) => {
+            let map = (map, args.map.path.as_path());
+            team::of_scenario(map, scen, robots, &group, &Bodies::default(), terminal)?
+        }
         (None, robots) => team::by_chance(map, robots.unwrap_or_default(), args.seed, &group)?,
     };
     if !args.assign {
         return Ok(team);
     }
-    let _working = terminal.working(format!("{} robots: sharing out their targets", team.robots()));
+    let robots = counted(team.robots() as u64, "robot");
+    let _working = terminal.working(format!("{robots}: sharing out their targets"));
     let (bodies, radius) = (team.bodies(), team.bodies().radius(0));
     if (0..team.robots()).any(|robot| bodies.radius(robot) != radius) {
         let message = "--assign: the robots have different sizes, so that a target of one may have no room for another; give all one size, or leave --assign out";
@@ -153,12 +163,9 @@ fn plan_file(
     report: &FleetReport,
 ) -> PlanFile {
     let stated = Stated {
-        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
-        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
-        seed: Some(args.seed),
         lower_bound: Some(report.lower_bound),
         comp_time_ms: Some(report.elapsed_ms),
-        ..Stated::default()
+        ..stated(args)
     };
     PlanFile {
         lattice: Some(map.lattice()),
@@ -169,6 +176,16 @@ fn plan_file(
         keep_outs: keep_outs.all().to_vec(),
         stated,
         ..PlanFile::new(plan)
+    }
+}
+
+/// What every plan of this command states.
+pub(super) fn stated(args: &FleetArgs) -> Stated {
+    Stated {
+        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
+        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
+        seed: Some(args.seed),
+        ..Stated::default()
     }
 }
 
@@ -240,6 +257,7 @@ fn text(report: &FleetReport, cut_off: Option<String>) -> String {
         let why = cut_off.map_or(String::new(), |why| format!(": {why}"));
         return format!("fleet: {robots}, {what}{why}\nended          {ended}\n");
     };
+    let makespan = counted(makespan as u64, "step");
     let ratio = match (cost, *lower_bound) {
         (0, _) | (_, 0) => String::new(),
         (cost, bound) if cost == bound => ", the least possible".to_owned(),
@@ -254,7 +272,7 @@ fn text(report: &FleetReport, cut_off: Option<String>) -> String {
         format!("first plan     {cost} after {}; {better} since\n", duration(ms))
     });
     format!(
-        "fleet: {robots}, all arrive\nsum of costs   {cost}{ratio}\nmakespan       {makespan} steps\n{first}ended          {ended}\n"
+        "fleet: {robots}, all arrive\nsum of costs   {cost}{ratio}\nmakespan       {makespan}\n{first}ended          {ended}\n"
     )
 }
 

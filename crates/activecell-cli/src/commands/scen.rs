@@ -48,6 +48,7 @@ pub(crate) fn run(args: &ScenArgs, terminal: &Terminal) -> anyhow::Result<Done> 
     for task in &tasks {
         fits(task, &map).with_context(|| format!("{} line {}", args.scen.display(), task.line))?;
     }
+    say_other_map(&args.scen, &tasks, &map_path, terminal);
     // One start, one target: the wave's shortest way can be had without flooding the map.
     let mut search = (rule == Rule::Wave).then(|| Search::new(&map));
     let bar = terminal.counting(tasks.len() as u64, "routing");
@@ -84,6 +85,20 @@ pub(super) fn fits(task: &Task, map: &Map) -> anyhow::Result<()> {
         given.1
     );
     Ok(())
+}
+
+/// Tells that the tasks were made for a map of another name: what one of the same size says of it is luck.
+pub(super) fn say_other_map(scen: &Path, tasks: &[Task], map: &Path, terminal: &Terminal) {
+    let Some(given) = map.file_name().map(|name| name.to_string_lossy()) else { return };
+    let mut names = tasks.iter().map(|task| file_name(&task.map));
+    if let Some(name) = names.find(|name| *name != given) {
+        terminal.note(&format!("note: {} is for the map {name:?}, this one is {given:?}", scen.display()));
+    }
+}
+
+/// The map's file without its folder. Scenarios are written on every system.
+fn file_name(map: &str) -> &str {
+    map.rsplit(['/', '\\']).next().unwrap_or(map)
 }
 
 /// An answer, in the form of the one that gave it.
@@ -129,9 +144,7 @@ fn solve(
 /// The map that a scenario names: its file name, looked for beside the scenario.
 fn beside(scen: &Path, name: &str) -> anyhow::Result<PathBuf> {
     let folder = scen.parent().unwrap_or(Path::new(""));
-    // Scenarios are written on every system.
-    let file_name = name.rsplit(['/', '\\']).next().unwrap_or(name);
-    let found = [folder.join(file_name), folder.join(name)].into_iter().find(|path| path.is_file());
+    let found = [folder.join(file_name(name)), folder.join(name)].into_iter().find(|path| path.is_file());
     found.with_context(|| {
         format!("{}: its map `{name}` is not beside it; name the map with --map", scen.display())
     })

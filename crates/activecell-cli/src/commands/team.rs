@@ -3,6 +3,7 @@
 use super::group::Group;
 use super::{counted, scen};
 use crate::args::WrongArgument;
+use crate::terminal::Terminal;
 use activecell::{Bodies, Error, Map, Team};
 use anyhow::Context;
 use std::path::Path;
@@ -11,11 +12,12 @@ use std::path::Path;
 ///
 /// What the options do not say of their bodies is as `stated`.
 pub(super) fn of_scenario(
-    map: &Map,
+    (map, map_path): (&Map, &Path),
     path: &Path,
     robots: Option<usize>,
     group: &Group,
     stated: &Bodies,
+    terminal: &Terminal,
 ) -> anyhow::Result<Team> {
     let tasks = scen::read(path)?;
     let rows = robots.unwrap_or(tasks.len());
@@ -29,6 +31,7 @@ pub(super) fn of_scenario(
     for (row, task) in tasks.iter().enumerate() {
         scen::fits(task, map).with_context(|| place(row))?;
     }
+    scen::say_other_map(path, tasks, map_path, terminal);
     let (starts, targets) = tasks.iter().map(|task| (task.from, task.to)).unzip();
     let bodies = group.bodies(rows, stated)?;
     let team = Team::new(map, starts, targets).and_then(|team| team.with_bodies(map, bodies));
@@ -47,21 +50,22 @@ pub(super) fn of_scenario(
 /// Robots by chance.
 pub(super) fn by_chance(map: &Map, robots: usize, seed: u64, group: &Group) -> anyhow::Result<Team> {
     // No map has so many cells: not even their sizes are worth the memory.
-    anyhow::ensure!(robots <= map.cells(), too_many(robots, "the map has", map.cells(), "cells"));
+    let all = counted(map.cells() as u64, "cell");
+    anyhow::ensure!(robots <= map.cells(), too_many(robots, &format!("the map has {all}")));
     let bodies = group.bodies(robots, &Bodies::default())?;
     let are_cells = bodies.are_cells();
     Team::random_bodies(map, bodies, robots, seed).map_err(|error| match error {
         Error::TeamSize { free, .. } if are_cells => {
-            too_many(robots, "the floor's largest region has", free, "free cells").into()
+            let free = counted(free as u64, "free cell");
+            too_many(robots, &format!("the floor's largest region has {free}")).into()
         }
         Error::TeamSize { free, .. } => {
-            too_many(robots, "of these sizes and at this distance there was room for", free, "").into()
+            too_many(robots, &format!("of these sizes and at this distance there was room for {free}")).into()
         }
         other => other.into(),
     })
 }
 
-fn too_many(robots: usize, what: &str, count: usize, of: &str) -> WrongArgument {
-    let room = format!("{what} {count} {of}");
-    WrongArgument(format!("--robots {robots}: {}; take fewer robots", room.trim_end()))
+fn too_many(robots: usize, room: &str) -> WrongArgument {
+    WrongArgument(format!("--robots {robots}: {room}; take fewer robots"))
 }

@@ -6,8 +6,8 @@ use activecell::control::{State, TABLE};
 
 /// What the inputs g0 to g7 mean.
 const INPUTS: [&str; 8] = [
-    "go: a task is set",
-    "side: of the two sides the left one is wanted",
+    "go, a task is set",
+    "of the two sides the left one is wanted",
     "obstacle on the right",
     "obstacle on the left",
     "obstacle in front; the route forces a turn by it",
@@ -21,14 +21,13 @@ const INPUTS: [&str; 8] = [
 /// States that follow alike on every input share their formulas. The numbers 6 and 7, which are no states, act as calm,
 /// so that a register that was upset recovers at the next step.
 pub fn control() -> Circuit {
-    let mut circuit =
-        Circuit::new("control_next", "The control unit: next state and outputs of the present state.");
+    let meanings = INPUTS.iter().enumerate().map(|(i, about)| format!("\n  g{i}: {about}"));
+    let meanings = meanings.collect::<Vec<_>>().concat();
+    let about =
+        format!("The control unit: next state and outputs of the present state. Its inputs:{meanings}");
+    let mut circuit = Circuit::new("control_next", &about);
     let state = circuit.input("state", 3, &state_names());
-    let inputs = circuit.input(
-        "g",
-        8,
-        &INPUTS.iter().enumerate().map(|(i, about)| format!("g{i} {about}")).collect::<Vec<_>>().join("; "),
-    );
+    let inputs = circuit.input("g", 8, "the inputs g7 to g0");
     let state_bits: Vec<Expr> = (0..3).map(|bit| Expr::Bit(state, bit)).collect();
     let is_one_of = |states: &[State]| {
         let cubes = sum_of_products(3, |code| states.contains(&decoded(code)), |_| false);
@@ -47,8 +46,9 @@ pub fn control() -> Circuit {
     let mut variables: Vec<Expr> = (0..8).map(|bit| Expr::Bit(inputs, bit)).collect();
     for (states, _) in &classes {
         let names: Vec<&str> = states.iter().map(|state| state.name()).collect();
-        let name = format!("from_{}", names[0]);
-        let class = circuit.wire(&name, is_one_of(states), &format!("in state {}", names.join(", ")));
+        let name = if states.iter().all(|state| state.moves()) { "moving" } else { names[0] };
+        let class =
+            circuit.wire(&format!("is_{name}"), is_one_of(states), &format!("in state {}", names.join(", ")));
         variables.push(Expr::Signal(class));
     }
     let next = |assignment: u32| {

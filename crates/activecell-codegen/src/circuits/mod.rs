@@ -1,11 +1,15 @@
-//! The circuits: the published rule, the sector of the target, the control unit.
+//! The circuits: the published rule, the sector of the target, the control unit, what the program player tells it.
 
 mod control;
 mod decision;
+mod fabric;
+mod player;
 mod sector;
 
 pub use control::control;
 pub use decision::decision;
+pub use fabric::fabric_cell;
+pub use player::player;
 pub use sector::{Bearing, sector};
 
 use crate::logic::{Cube, Expr, Signal};

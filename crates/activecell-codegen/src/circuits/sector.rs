@@ -77,7 +77,7 @@ pub fn sector(lattice: Lattice) -> Circuit {
             |place| table[place as usize].is_some_and(|sector| sector >> bit & 1 == 1),
             |place| table[place as usize].is_none(),
         );
-        wires.push(circuit.wire(&format!("bit{bit}"), sum(&cubes, &bits), "of the number"));
+        wires.push(circuit.wire(&format!("bit{bit}"), sum(&cubes, &bits), "a bit of the number"));
     }
     circuit.output("sector", Expr::Join(wires), "where the target lies");
     circuit

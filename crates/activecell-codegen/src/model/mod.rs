@@ -1,3 +1,8 @@
-//! The navigators as models: what the generated hardware must do, clock by clock, in Rust.
+//! The generated machines in Rust, clock by clock, built on the rules of the core: what their traces must equal.
 
+pub mod fabric;
 pub mod player;
+pub mod player_trace;
+mod windowed;
+
+pub use windowed::{Shown, Windowed};

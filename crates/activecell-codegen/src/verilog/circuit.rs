@@ -1,21 +1,18 @@
 //! Circuits as modules.
 
 use crate::logic::{Circuit, Expr, Port, Signal, Wire};
+use std::collections::BTreeSet;
 
 /// A circuit as a module without state.
 pub fn module(circuit: &Circuit) -> String {
-    let ports: Vec<(&str, &Port)> = circuit
-        .inputs
-        .iter()
-        .map(|port| ("input ", port))
-        .chain(circuit.outputs().map(|wire| ("output", &wire.port)))
-        .collect();
-    let last = ports.len() - 1;
-    let mut text = format!("// {}\nmodule {} (\n", circuit.about, circuit.name);
-    for (i, (direction, port)) in ports.into_iter().enumerate() {
-        let comma = if i == last { " " } else { "," };
-        text +=
-            &format!("    {direction} wire {}{}{comma} // {}\n", range(port.width), port.name, port.about);
+    let inputs = circuit.inputs.iter().map(|port| ("input ", port));
+    let ports: Vec<(&str, &Port)> =
+        inputs.chain(circuit.outputs().map(|wire| ("output", &wire.port))).collect();
+    let names = ports.iter().map(|(_, port)| port.name.len()).max().unwrap_or(0) + 1;
+    let mut text = format!("// {}\nmodule {} (\n", circuit.about.replace('\n', "\n// "), circuit.name);
+    for (i, (direction, Port { name, width, about })) in ports.iter().enumerate() {
+        let name = if i + 1 == ports.len() { name.clone() } else { format!("{name},") };
+        text += &format!("    {direction} wire {} {name:names$} // {about}\n", range(*width));
     }
     text += ");\n";
     for wire in &circuit.wires {
@@ -25,38 +22,48 @@ pub fn module(circuit: &Circuit) -> String {
 }
 
 fn range(width: u32) -> String {
-    if width == 1 { "      ".into() } else { format!("[{}:0] ", width - 1) }
+    if width == 1 { "     ".into() } else { format!("[{}:0]", width - 1) }
 }
 
 fn statement(circuit: &Circuit, wire: &Wire) -> String {
     let Port { name, width, about } = &wire.port;
-    let declaration =
-        if wire.is_output { String::new() } else { format!("    wire {}{name};\n", range(*width)) };
-    let comment = if wire.is_output { String::new() } else { format!("\n    // {name}: {about}\n") };
-    let assignment = match &wire.expr {
-        Expr::Lookup { table, width, index } => lookup(circuit, wire, table, *width, *index),
-        expr => format!("    assign {name} = {};\n", whole(&formula(circuit, expr))),
-    };
-    comment + &declaration + &assignment
+    let bits = if *width == 1 { String::new() } else { format!("{} ", range(*width)) };
+    let declaration = format!("wire {bits}{name}");
+    let value = |expr: &Expr| lines(whole(&formula(circuit, expr)));
+    match &wire.expr {
+        Expr::Lookup { table, width, index } => {
+            let (function, call) = lookup(circuit, wire, table, *width, *index);
+            format!("\n    // {about}\n{function}    {declaration} = {call};\n")
+        }
+        expr if wire.is_output => format!("\n    assign {name} = {};\n", value(expr)),
+        expr => format!("\n    // {about}\n    {declaration} = {};\n", value(expr)),
+    }
 }
 
-/// A table as a function: synthesis tools make gates of it.
-fn lookup(circuit: &Circuit, wire: &Wire, table: &[u32], width: u32, index: Signal) -> String {
-    let (name, index) = (&wire.port.name, circuit.port(index));
-    let digits = width as usize;
+/// A long sum, each product in a line of its own.
+fn lines(formula: &str) -> String {
+    if formula.len() < 90 { formula.into() } else { formula.replace(") | (", ")\n        | (") }
+}
+
+/// A table as a function, which becomes gates: entries that are alike share a line, the most frequent is the default.
+/// The function, and its call.
+fn lookup(circuit: &Circuit, wire: &Wire, table: &[u32], width: u32, index: Signal) -> (String, String) {
+    let (name, index, digits) = (&wire.port.name, circuit.port(index), width as usize);
+    let places = |entry: u32| (0..table.len()).filter(move |&place| table[place] == entry);
+    let entries: BTreeSet<u32> = table.iter().copied().collect();
+    let default = entries.iter().copied().max_by_key(|&entry| places(entry).count()).unwrap_or(0);
     let mut text = format!(
-        "    function [{}:0] {name}_of(input [{}:0] {}_in);\n        case ({}_in)\n",
+        "    function [{}:0] {name}_of(input [{}:0] place);\n        case (place)\n",
         width - 1,
         index.width - 1,
-        index.name,
-        index.name
     );
-    let (last, entries) = table.split_last().expect("a table has entries");
-    for (place, entry) in entries.iter().enumerate() {
-        text += &format!("            {}'d{place}: {name}_of = {width}'b{entry:0digits$b};\n", index.width);
+    for entry in entries.into_iter().filter(|&entry| entry != default) {
+        let places: Vec<String> = places(entry).map(|place| format!("{}'d{place}", index.width)).collect();
+        text += &format!("            {}: {name}_of = {width}'b{entry:0digits$b};\n", places.join(", "));
     }
-    text += &format!("            default: {name}_of = {width}'b{last:0digits$b};\n");
-    text + &format!("        endcase\n    endfunction\n    assign {name} = {name}_of({});\n", index.name)
+    text += &format!("            default: {name}_of = {width}'b{default:0digits$b};\n");
+    text += "        endcase\n    endfunction\n";
+    (text, format!("{name}_of({})", index.name))
 }
 
 /// Without the outermost brackets.

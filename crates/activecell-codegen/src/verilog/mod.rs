@@ -1,5 +1,11 @@
 //! Verilog-2005.
 
 mod circuit;
+mod fabric;
+mod player;
+mod windowed;
 
 pub use circuit::module;
+pub use fabric::{MAX_FABRIC_CELLS, fabric};
+pub use player::{control_unit, player};
+pub use windowed::windowed;

@@ -2,6 +2,9 @@
 
 #![allow(dead_code, reason = "each test uses some of these")]
 
+pub(crate) mod cxxrtl;
+pub(crate) mod formal;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

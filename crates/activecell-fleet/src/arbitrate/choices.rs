@@ -58,9 +58,7 @@ impl Orders {
         let mut tables = Vec::with_capacity(ORDERS);
         for _ in 0..ORDERS / 2 {
             let mut slots: Vec<u32> = (0..SLOTS).collect();
-            for i in (1..SLOTS).rev() {
-                slots.swap(i as usize, rng.below(i + 1) as usize);
-            }
+            rng.shuffle(&mut slots);
             tables.push(table(&slots));
             slots.reverse();
             tables.push(table(&slots));

@@ -12,7 +12,7 @@ mod bodies;
 mod choices;
 mod swap;
 
-use crate::fields::Fields;
+use crate::fields::{Fields, Goal};
 use crate::floor::{Floor, NONE};
 use crate::room::Room;
 use activecell::Rng;
@@ -20,26 +20,16 @@ use bodies::Pushed;
 use choices::{Choices, Orders, STAY};
 use std::cmp::Ordering;
 
-/// Where a robot wants to go: the number of the cell, and the slot of its field.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Goal {
-    /// The number of the target cell.
-    pub target: u32,
-    /// The slot of its field in [`Fields`].
-    pub slot: u32,
-}
-
 /// Settles steps of all robots.
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map};
-/// use activecell_fleet::{Arbiter, Fields, Floor, Goal, NONE};
+/// use activecell_fleet::{Arbiter, Fields, Floor, NONE};
 /// let map = Map::parse(Lattice::Square, "...\n...")?;
 /// let floor = Floor::new(&map);
 /// let [west, east] = [0, 2].map(|x| floor.number(Cell::new(x, 0)));
 /// let mut fields = Fields::new(&floor);
-/// let slots = fields.request(&floor, &[east, west], 1)?;
-/// let goals = vec![Goal { target: east, slot: slots[0] }, Goal { target: west, slot: slots[1] }];
+/// let goals = fields.goals(&floor, &[east, west], 1)?;
 /// let mut arbiter = Arbiter::new(&floor, &fields, goals, 7);
 /// let (mut now, mut next) = (vec![west, east], vec![NONE; 2]);
 /// for _ in 0..10 {

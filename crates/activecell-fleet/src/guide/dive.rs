@@ -41,24 +41,34 @@ impl Dive {
 ///
 /// ```
 /// use activecell::{Lattice, Map};
-/// use activecell_fleet::{Fields, Floor, Goal, Guide, Problem, dive};
+/// use activecell_fleet::{Fields, Floor, Guide, Problem, dive};
 /// let map = Map::parse(Lattice::Square, "A.B\n...")?;
 /// let floor = Floor::new(&map);
 /// let [west, east] = ['A', 'B'].map(|name| floor.number(map.mark(name).unwrap()));
 /// let mut fields = Fields::new(&floor);
-/// let slots = fields.request(&floor, &[east, west], 1)?;
-/// let goals = [Goal { target: east, slot: slots[0] }, Goal { target: west, slot: slots[1] }];
+/// let goals = fields.goals(&floor, &[east, west], 1)?;
 /// let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &[west, east] };
 /// let found = dive(problem, Guide::Local(10), 0, &|_| false).unwrap();
 /// assert_eq!(found.sum_of_costs, 6); // one of them goes round by the row below
 /// # Ok::<(), activecell::Error>(())
 /// ```
 pub fn dive(problem: Problem<'_>, guide: Guide, seed: u64, stop: &impl Fn(u64) -> bool) -> Option<Dive> {
+    dive_from(problem, &problem.distances(), guide, seed, stop)
+}
+
+/// The same for robots that are known to have so many steps to go.
+pub(super) fn dive_from(
+    problem: Problem<'_>,
+    distances: &[u32],
+    guide: Guide,
+    seed: u64,
+    stop: &impl Fn(u64) -> bool,
+) -> Option<Dive> {
     let Problem { floor, fields, goals, starts } = problem;
     assert_eq!(starts.len(), goals.len(), "one start and one goal a robot");
     let mut arbiter = Arbiter::new(floor, fields, goals.to_vec(), seed);
     let shy = 2 * starts.len() < floor.map().free_cells();
-    let mut team = Team::new(problem);
+    let mut team = Team::new(distances.to_vec());
     let bound = team.bound(0);
     let (window, mut ways) = match guide {
         Guide::Plain => (None, None),
@@ -121,12 +131,10 @@ struct Team {
 }
 
 impl Team {
-    fn new(problem: Problem<'_>) -> Self {
-        let Problem { floor, fields, goals, starts } = problem;
-        let distances = starts.iter().zip(goals).map(|(&start, goal)| fields.steps(floor, goal.slot, start));
-        let ahead: Vec<u32> = distances.collect();
+    /// Robots that have so many steps to go.
+    fn new(ahead: Vec<u32>) -> Self {
         let sum = ahead.iter().map(|&steps| u64::from(steps)).sum();
-        let robots = starts.len();
+        let robots = ahead.len();
         let mut ranks: Vec<u32> = (0..robots as u32).collect();
         ranks.sort_by_key(|&robot| Reverse(ahead[robot as usize]));
         Self {

@@ -1,8 +1,9 @@
 //! Dives of several kinds, on several threads.
 
+use super::dive::dive_from;
 use super::local::Local;
 use super::spread::Ways;
-use super::{Dive, Guide, Problem, dive};
+use super::{Dive, Guide, Problem};
 use activecell::Rng;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::mpsc;
@@ -21,27 +22,25 @@ pub(crate) struct Budget<S> {
 const HUGE: u64 = 2_000_000;
 
 /// The kinds to try, the most promising first. Measured, see `docs/fleet.md`.
-fn kinds(problem: Problem<'_>) -> Vec<Guide> {
-    let Problem { floor, fields, goals, starts } = problem;
-    let steps =
-        starts.iter().zip(goals).map(|(&start, goal)| u64::from(fields.steps(floor, goal.slot, start)));
-    let longest = steps.max().unwrap_or(0);
-    if longest * starts.len() as u64 > HUGE {
+fn kinds(distances: &[u32]) -> Vec<Guide> {
+    let longest = distances.iter().copied().max().unwrap_or(0);
+    if u64::from(longest) * distances.len() as u64 > HUGE {
         return vec![Guide::Local(7), Guide::Local(10)];
     }
     vec![Guide::Spread(10), Guide::Local(10)]
 }
 
-/// Makes a dive of each kind and gives `found` those that are better than `best` and all before them, in the order of the
-/// kinds. Which these are does not depend on the threads.
+/// Makes a dive of each kind, for robots that have so many steps to go, and gives `found` those that are better than
+/// `best` and all before them, in the order of the kinds. Which these are does not depend on the threads.
 pub(crate) fn dives(
     problem: Problem<'_>,
+    distances: &[u32],
     seed: u64,
     best: u64,
     budget: &Budget<impl Fn() -> bool + Sync>,
     mut found: impl FnMut(Dive),
 ) {
-    let kinds = kinds(problem);
+    let kinds = kinds(distances);
     let mut rng = Rng::new(seed);
     let seeds: Vec<u64> = kinds.iter().map(|_| rng.next_u64()).collect();
     let threads = budget.threads.clamp(1, kinds.len());
@@ -59,9 +58,10 @@ pub(crate) fn dives(
                     let Some(&kind) = kinds.get(number) else { return };
                     let before = || costs[..number].iter().map(|cost| cost.load(Ordering::Relaxed)).min();
                     // As if all ran at once, so that the number of threads changes nothing.
-                    let room = bytes(problem, kind) <= budget.bytes / kinds.len();
+                    let room = bytes(problem, distances, kind) <= budget.bytes / kinds.len();
                     let stop = |bound| bound >= best.min(before().unwrap_or(best)) || (budget.stop)();
-                    let dive = if room { dive(problem, kind, seeds[number], &stop) } else { None };
+                    let dive =
+                        if room { dive_from(problem, distances, kind, seeds[number], &stop) } else { None };
                     if let Some(dive) = &dive {
                         costs[number].store(dive.sum_of_costs, Ordering::Relaxed);
                     }
@@ -96,15 +96,13 @@ fn in_order<T>(items: impl IntoIterator<Item = (usize, Option<T>)>, mut pass: im
 }
 
 /// The memory that a dive of this kind takes, in bytes; its plan by what the longest way asks for, and half more.
-fn bytes(problem: Problem<'_>, kind: Guide) -> usize {
-    let Problem { floor, fields, goals, starts } = problem;
-    let steps = starts.iter().zip(goals).map(|(&start, goal)| fields.steps(floor, goal.slot, start));
-    let ahead: Vec<u32> = steps.collect();
-    let rows = ahead.iter().copied().max().unwrap_or(0) as usize * starts.len() * size_of::<u32>();
+fn bytes(problem: Problem<'_>, distances: &[u32], kind: Guide) -> usize {
+    let longest = distances.iter().copied().max().unwrap_or(0);
+    let rows = longest as usize * distances.len() * size_of::<u32>();
     let guide = match kind {
         Guide::Plain => 0,
         Guide::Local(window) => Local::bytes(problem, window),
-        Guide::Spread(window) => Local::bytes(problem, window) + Ways::bytes(problem, &ahead),
+        Guide::Spread(window) => Local::bytes(problem, window) + Ways::bytes(problem, distances),
     };
     guide + rows + rows / 2
 }

@@ -10,8 +10,7 @@ pub(crate) use dives::{Budget, dives};
 
 pub use dive::{Dive, dive};
 
-use crate::arbitrate::Goal;
-use crate::fields::Fields;
+use crate::fields::{Fields, Goal};
 use crate::floor::Floor;
 
 /// What is to be planned.
@@ -25,6 +24,14 @@ pub struct Problem<'a> {
     pub goals: &'a [Goal],
     /// Where each robot starts, by the number of the cell.
     pub starts: &'a [u32],
+}
+
+impl Problem<'_> {
+    /// Steps from the start of each robot to its target, if nobody were in its way: the fields are walked down.
+    pub fn distances(&self) -> Vec<u32> {
+        let ends = self.starts.iter().zip(self.goals);
+        ends.map(|(&start, goal)| self.fields.steps(self.floor, goal.slot, start)).collect()
+    }
 }
 
 /// How robots look ahead.

@@ -42,9 +42,7 @@ impl Ways {
         let mut order: Vec<u32> = (0..ahead.len() as u32).collect();
         let mut least = u64::MAX;
         for _ in 0..ROUNDS {
-            for i in (1..order.len()).rev() {
-                order.swap(i, rng.below(i as u32 + 1) as usize);
-            }
+            rng.shuffle(&mut order);
             let mut sum = 0;
             for &robot in &order {
                 if stop() {

@@ -32,19 +32,8 @@ pub fn deliveries(pickups: &[Cell], drops: &[Cell], count: usize, seed: u64) -> 
 
 /// The cells of a map that a robot in `from` can come to, row by row: cells from which to draw.
 pub fn within_reach(map: &Map, from: Cell) -> Vec<Cell> {
-    let Some(origin) = map.index(from).filter(|_| map.is_free(from)) else { return Vec::new() };
-    let mut seen = vec![false; map.cells()];
-    seen[origin] = true;
-    let mut rim = vec![from];
-    while let Some(cell) = rim.pop() {
-        for next in map.lattice().dirs().map(|dir| map.lattice().neighbour(cell, dir)) {
-            if let Some(index) = map.index(next).filter(|&index| map.is_free(next) && !seen[index]) {
-                seen[index] = true;
-                rim.push(next);
-            }
-        }
-    }
-    map.free().filter(|&cell| map.index(cell).is_some_and(|index| seen[index])).collect()
+    let Ok(reached) = map.reachable(&[from]) else { return Vec::new() };
+    map.free().filter(|cell| reached.get(cell.x as u32, cell.y as u32)).collect()
 }
 
 fn draw(cells: &[Cell], rng: &mut Rng) -> Cell {

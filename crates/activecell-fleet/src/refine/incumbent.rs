@@ -1,7 +1,6 @@
 //! The best plan so far: the path of each robot, and who is where at each step.
 
 use super::ground::Ground;
-use crate::arbitrate::Goal;
 use crate::floor::{Floor, NONE};
 use activecell::Plan;
 use std::mem;
@@ -42,9 +41,7 @@ impl Incumbent {
         let table = vec![0; (steps + 1) * ground.len()];
         let mut new = Self { paths, least, sum, steps, table, delays: Vec::new() };
         for robot in 0..new.paths.len() as u32 {
-            let path = mem::take(&mut new.paths[robot as usize]);
-            new.mark(&path, robot + 1);
-            new.paths[robot as usize] = path;
+            new.mark(robot, robot + 1);
         }
         new.add_delays();
         new
@@ -112,7 +109,9 @@ impl Incumbent {
         }
     }
 
-    fn mark(&mut self, path: &[u32], entry: u32) {
+    /// Writes an entry of the table wherever a robot's path leads; 0 is nobody.
+    fn mark(&mut self, robot: u32, entry: u32) {
+        let path = &self.paths[robot as usize];
         let line = self.steps + 1;
         for (step, &place) in path.iter().enumerate() {
             self.table[place as usize * line + step] = entry as u16;
@@ -123,39 +122,26 @@ impl Incumbent {
 
     /// Puts new paths in, if they meet nobody; the change then has the old ones.
     pub(super) fn make(&mut self, change: &mut Change) -> bool {
-        self.swap(change, false);
+        for &(robot, _) in &change.paths {
+            self.mark(robot, 0);
+        }
+        self.swap(change);
         let fits = change.paths.iter().all(|&(robot, _)| self.fits(robot));
-        if fits {
-            for i in 0..change.paths.len() {
-                let robot = change.paths[i].0;
-                let path = mem::take(&mut self.paths[robot as usize]);
-                self.mark(&path, robot + 1);
-                self.paths[robot as usize] = path;
-            }
-        } else {
-            self.swap(change, true);
+        if !fits {
+            self.swap(change);
+        }
+        for &(robot, _) in &change.paths {
+            self.mark(robot, robot + 1);
         }
         fits
     }
 
-    /// Exchanges the paths of a change with those of the plan; the table has the old ones or none of them.
-    fn swap(&mut self, change: &mut Change, mark: bool) {
+    /// Exchanges the paths of a change with those of the plan, but not in the table.
+    fn swap(&mut self, change: &mut Change) {
         for (robot, path) in &mut change.paths {
-            if !mark {
-                let old = mem::take(&mut self.paths[*robot as usize]);
-                self.mark(&old, 0);
-                self.paths[*robot as usize] = old;
-            }
             let cost = self.cost(*robot) as u64;
             mem::swap(path, &mut self.paths[*robot as usize]);
             self.sum = self.sum - cost + self.cost(*robot) as u64;
-        }
-        if mark {
-            for (robot, _) in &change.paths {
-                let old = mem::take(&mut self.paths[*robot as usize]);
-                self.mark(&old, *robot + 1);
-                self.paths[*robot as usize] = old;
-            }
         }
     }
 
@@ -172,10 +158,4 @@ impl Incumbent {
             && !(1..path.len()).any(meets)
             && (path.len()..=self.steps).all(|step| self.who(step, last) == NONE)
     }
-}
-
-/// The distance of each robot.
-pub(super) fn least(floor: &Floor, fields: &crate::fields::Fields, goals: &[Goal], plan: &Plan) -> Vec<u32> {
-    let distance = |(goal, &cell): (&Goal, _)| fields.steps(floor, goal.slot, floor.number(cell));
-    goals.iter().zip(plan.row(0)).map(distance).collect()
 }

@@ -19,8 +19,7 @@ mod incumbent;
 mod roulette;
 mod worker;
 
-use crate::arbitrate::Goal;
-use crate::fields::Fields;
+use crate::fields::{Fields, Goal};
 use crate::floor::Floor;
 use crate::passage::Reservations;
 use activecell::{Plan, Rng, TileField};
@@ -46,14 +45,12 @@ const BATCH: [usize; 2] = [8, 128];
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map, Plan};
-/// use activecell_fleet::{Fields, Floor, Goal, Refiner};
+/// use activecell_fleet::{Fields, Floor, Refiner};
 /// let map = Map::parse(Lattice::Square, "...")?;
 /// let floor = Floor::new(&map);
 /// let [west, mid, east] = [0, 1, 2].map(|x| Cell::new(x, 0));
-/// let goals = [floor.number(east)];
 /// let mut fields = Fields::new(&floor);
-/// let slots = fields.request(&floor, &goals, 1)?;
-/// let goals = [Goal { target: goals[0], slot: slots[0] }];
+/// let goals = fields.goals(&floor, &[floor.number(east)], 1)?;
 /// let slow = Plan::new(1, vec![west, west, mid, mid, east])?;
 /// let mut refiner = Refiner::new(&floor, &fields, &goals, &slow, 7);
 /// assert_eq!(refiner.round(2, &|| false), Some(2));
@@ -79,6 +76,14 @@ struct State {
     changes: Vec<Change>,
     size: usize,
     rng: Rng,
+}
+
+/// What a neighbourhood is chosen from and planned on.
+#[derive(Clone, Copy)]
+struct View<'a> {
+    ground: &'a Ground,
+    guides: &'a Guides<'a>,
+    plan: &'a Incumbent,
 }
 
 /// Where each robot wants to go, and its field.
@@ -109,9 +114,23 @@ impl<'a> Refiner<'a> {
     /// # Panics
     /// If the plan has not as many robots as there are goals, or leaves the floor.
     pub fn new(floor: &'a Floor, fields: &'a Fields, goals: &[Goal], plan: &Plan, seed: u64) -> Self {
+        let ends = goals.iter().zip(plan.row(0));
+        let distances =
+            ends.map(|(goal, &cell)| fields.steps(floor, goal.slot, floor.number(cell))).collect();
+        Self::with_distances(floor, fields, goals, distances, plan, seed)
+    }
+
+    /// The same for robots that are known to have so many steps to go from their starts.
+    pub(crate) fn with_distances(
+        floor: &'a Floor,
+        fields: &'a Fields,
+        goals: &[Goal],
+        least: Vec<u32>,
+        plan: &Plan,
+        seed: u64,
+    ) -> Self {
         assert_eq!(plan.robots(), goals.len(), "a goal for each robot");
         let ground = Ground::new(floor);
-        let least = incumbent::least(floor, fields, goals, plan);
         let plan = Incumbent::new(floor, &ground, least, plan);
         let targets = goals.iter().map(|goal| ground.place(goal.target)).collect();
         let guides = Guides { fields, goals: goals.to_vec(), targets };
@@ -196,8 +215,9 @@ fn alone(
     stop: &impl Fn() -> bool,
 ) {
     for _ in 0..BATCHES {
+        let view = View { ground, guides, plan: &state.plan };
         let tasks = state.tasks.iter().take_while(|_| !stop());
-        let found = tasks.map(|(_, task)| worker.attempt(ground, guides, &state.plan, task)).collect();
+        let found = tasks.map(|(_, task)| worker.attempt(view, task)).collect();
         state.settle(found);
         worker.follow(ground, &state.plan, &state.changes);
         state.draw();
@@ -220,11 +240,12 @@ fn side_by_side(
         for _ in 0..BATCHES {
             {
                 let state = state.read().unwrap_or_else(PoisonError::into_inner);
+                let view = View { ground, guides, plan: &state.plan };
                 let mut own = Vec::new();
                 while !stop() {
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some((_, task)) = state.tasks.get(index) else { break };
-                    own.push((index, worker.attempt(ground, guides, &state.plan, task)));
+                    own.push((index, worker.attempt(view, task)));
                 }
                 found.lock().unwrap_or_else(PoisonError::into_inner).append(&mut own);
             }

@@ -1,6 +1,6 @@
 //! One that plans neighbourhoods again, on reservations of its own.
 
-use super::Guides;
+use super::View;
 use super::choose::{Picker, Task};
 use super::ground::Ground;
 use super::incumbent::{Change, Incumbent};
@@ -64,22 +64,15 @@ impl Worker {
     }
 
     /// Plans a neighbourhood again; the reservations are then what they were.
-    pub(super) fn attempt(
-        &mut self,
-        ground: &Ground,
-        guides: &Guides<'_>,
-        plan: &Incumbent,
-        task: &Task,
-    ) -> Proposal {
+    pub(super) fn attempt(&mut self, view: View<'_>, task: &Task) -> Proposal {
+        let View { ground, plan, .. } = view;
         let mut rng = Rng::new(task.seed);
-        let mut robots = self.picker.pick(ground, guides, plan, task, &mut rng);
-        for i in (1..robots.len()).rev() {
-            robots.swap(i, rng.below(i as u32 + 1) as usize);
-        }
+        let mut robots = self.picker.pick(view, task, &mut rng);
+        rng.shuffle(&mut robots);
         for &robot in &robots {
             self.mark(ground, &plan.paths[robot as usize], false);
         }
-        let paths = self.plan_again(ground, plan, &robots, &mut rng);
+        let paths = self.plan_again(view, &robots, &mut rng);
         for (_, path) in &paths {
             self.mark(ground, path, false);
         }
@@ -97,13 +90,8 @@ impl Worker {
 
     /// New paths for these robots, one after the other, all of them at most as dear as before; or for the first of them
     /// only, if that cannot be. They are reserved.
-    fn plan_again(
-        &mut self,
-        ground: &Ground,
-        plan: &Incumbent,
-        robots: &[u32],
-        rng: &mut Rng,
-    ) -> Vec<(u32, Vec<u32>)> {
+    fn plan_again(&mut self, view: View<'_>, robots: &[u32], rng: &mut Rng) -> Vec<(u32, Vec<u32>)> {
+        let View { ground, plan, .. } = view;
         let least = |robot: u32| plan.least[robot as usize] as usize;
         // What may still be spent, if all that follow take their shortest ways.
         let mut budget: usize = robots.iter().map(|&robot| plan.cost(robot) - least(robot)).sum();

@@ -10,7 +10,8 @@
 
 mod nodes;
 
-use crate::arbitrate::{Arbiter, Goal};
+use crate::arbitrate::Arbiter;
+use crate::fields::Goal;
 use crate::floor::NONE;
 use crate::priorities::Priorities;
 use activecell::{Cell, Plan, Rng};
@@ -46,13 +47,12 @@ pub enum Advance {
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map};
-/// use activecell_fleet::{Advance, Arbiter, Fields, Floor, Goal, Search};
+/// use activecell_fleet::{Advance, Arbiter, Fields, Floor, Search};
 /// let map = Map::parse(Lattice::Square, "...\n#.#")?;
 /// let floor = Floor::new(&map);
 /// let [west, east] = [0, 2].map(|x| floor.number(Cell::new(x, 0)));
 /// let mut fields = Fields::new(&floor);
-/// let slots = fields.request(&floor, &[east, west], 1)?;
-/// let goals = vec![Goal { target: east, slot: slots[0] }, Goal { target: west, slot: slots[1] }];
+/// let goals = fields.goals(&floor, &[east, west], 1)?;
 /// let mut search = Search::new(Arbiter::new(&floor, &fields, goals, 7), &[west, east], 7);
 /// while search.advance() != Advance::Exhausted {}
 /// let plan = search.plan().unwrap();
@@ -66,6 +66,8 @@ pub struct Search<'a> {
     open: Vec<u32>,
     /// The node in which all robots are at their targets.
     goal: Option<u32>,
+    /// Steps from the start of each robot to its target.
+    distances: Vec<u32>,
     /// Robots, the one farthest from its target first.
     ranks: Vec<u32>,
     rng: Rng,
@@ -112,6 +114,7 @@ impl<'a> Search<'a> {
             nodes,
             open: vec![start],
             goal: None,
+            distances,
             ranks,
             rng: Rng::new(!seed),
             next: vec![NONE; starts.len()],
@@ -125,6 +128,11 @@ impl<'a> Search<'a> {
     /// The sum of the distances from the starts to the targets: no plan costs less.
     pub fn lower_bound(&self) -> u64 {
         self.nodes.get(0).ahead
+    }
+
+    /// Steps from the start of each robot to its target, if nobody were in its way.
+    pub fn distances(&self) -> &[u32] {
+        &self.distances
     }
 
     /// Where the robots want to go.
@@ -234,9 +242,7 @@ impl<'a> Search<'a> {
             let here = node.cells[robot as usize];
             let mut choices: Vec<u32> = self.arbiter.floor_of(robot).links(here).to_vec();
             choices.push(here);
-            for i in (1..choices.len()).rev() {
-                choices.swap(i, self.rng.below(i as u32 + 1) as usize);
-            }
+            self.rng.shuffle(&mut choices);
             self.nodes.branch(number, own, choices);
         }
         order.iter().copied().zip(cells).collect()

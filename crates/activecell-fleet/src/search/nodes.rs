@@ -1,6 +1,6 @@
 //! The configurations that the search has met, and how they lead to one another.
 
-use crate::arbitrate::Goal;
+use crate::fields::Goal;
 use crate::floor::NONE;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};

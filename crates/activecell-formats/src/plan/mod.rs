@@ -169,7 +169,7 @@ impl PlanFormat {
 ///
 /// # Errors
 /// [`Error::BadFormat`] with line and column, or with the key of a JSON file; for more than [`MAX_PLAN_CELLS`] before memory is taken for
-/// them; for JSON of a later version; for a file that says that no plan was found.
+/// them; for JSON of a later version; for a file that says that no plan was found; for an empty one.
 ///
 /// ```
 /// use activecell_formats::plan::read_plan;
@@ -180,7 +180,10 @@ impl PlanFormat {
 pub fn read_plan(bytes: &[u8]) -> Result<PlanFile, Error> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let begin = bytes.trim_ascii_start();
-    if begin.starts_with(b"{") {
+    if begin.is_empty() {
+        // As `.paths` has it if there are no robots, but nothing tells it from a file that was cut.
+        Err(Error::file("the file is empty; give one with a plan, of no robots in .txt or .json"))
+    } else if begin.starts_with(b"{") {
         json::read(bytes)
     } else if begin.starts_with(b"Agent ") {
         paths::read(bytes)

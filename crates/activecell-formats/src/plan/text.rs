@@ -5,6 +5,7 @@ use super::{PlanFile, Stated, push};
 use crate::error::{Error, quoted_bytes};
 use crate::lines::Lines;
 use activecell::{Cell, Lattice, Plan};
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::str::FromStr;
 
@@ -22,6 +23,7 @@ struct Header {
 pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
     let mut lines = Lines::new(bytes);
     let mut header = Header::default();
+    let mut seen = BTreeSet::new();
     let mut last_line = 1;
     let rest = loop {
         let Some((line, text)) = lines.next() else {
@@ -38,7 +40,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
         if key == b"solution" {
             break Scan::new(line, text, equals + 1);
         }
-        header.read(line, text, key, value, equals + 1)?;
+        let is_known = header.read(line, text, key, value, equals + 1)?;
+        if is_known && !seen.insert(key) {
+            let key = show(key);
+            return Err(Error::line(line, format!("`{key}=` is stated twice; remove one of the lines")));
+        }
     };
     let plan = read_steps(rest, lines, &header)?;
     let counts = [
@@ -58,8 +64,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<PlanFile, Error> {
 }
 
 impl Header {
-    /// Takes in a line `key=value`; the value begins at the byte `at`.
-    fn read(&mut self, line: usize, text: &[u8], key: &[u8], value: &[u8], at: usize) -> Result<(), Error> {
+    /// Takes in a line `key=value`, and tells whether the key is known; the value begins at the byte `at`.
+    fn read(&mut self, line: usize, text: &[u8], key: &[u8], value: &[u8], at: usize) -> Result<bool, Error> {
         let name = || Some(String::from_utf8_lossy(value).into_owned()).filter(|name| !name.is_empty());
         let wrong = |wanted: &str| {
             Error::at(line, at + 1, format!("{} is {}; give {wanted}", show(key), quoted_bytes(value)))
@@ -85,9 +91,9 @@ impl Header {
             }
             b"starts" => self.starts = cells(line, text, at)?,
             b"goals" => self.targets = cells(line, text, at)?,
-            _ => {}
+            _ => return Ok(false),
         }
-        Ok(())
+        Ok(true)
     }
 }
 

@@ -1,8 +1,37 @@
-//! What several tests need: hand-made PNG files.
+//! What several tests need: hand-made PNG files, and files with something changed.
 #![allow(dead_code)] // Each test uses its part.
 
 use activecell_formats::raster::{Channels, Image, write_png};
+use proptest::prelude::*;
+use proptest::sample::Index;
 use std::io::Write;
+
+/// Where a file is changed, by which byte, and how.
+pub(crate) type Change = (Index, u8, u8);
+
+/// A few changes.
+pub(crate) fn changes() -> impl Strategy<Value = Vec<Change>> {
+    prop::collection::vec((any::<Index>(), any::<u8>(), 0..5_u8), 1..6)
+}
+
+/// A file with bytes put over others, put in and taken out, or its end cut off. Most files are text, so that some of the
+/// bytes put in are digits and signs.
+pub(crate) fn changed(mut bytes: Vec<u8>, changes: Vec<Change>) -> Vec<u8> {
+    for (index, byte, kind) in changes {
+        if bytes.is_empty() {
+            break;
+        }
+        let at = index.index(bytes.len());
+        match kind {
+            0 => bytes[at] = byte,
+            1 => bytes.insert(at, byte),
+            2 => drop(bytes.remove(at)),
+            3 => bytes.insert(at, b"0123456789(),;:->.\n"[usize::from(byte) % 19]),
+            _ => bytes.truncate(at),
+        }
+    }
+    bytes
+}
 
 /// The checksum of PNG chunks (ISO 3309), bit by bit.
 pub(crate) fn crc32(bytes: &[u8]) -> u32 {

@@ -135,8 +135,9 @@ struct Studio<'a> {
     size: [u32; 2],
     /// Each robot's hue.
     hues: Vec<u8>,
-    /// How many robots are at their targets after each step, and how many moves were made until then.
-    arrived: Vec<usize>,
+    /// How many robots are at their targets after each step; in a run without end, how many moved in it.
+    counts: Vec<usize>,
+    /// How many moves were made until after each step.
     moves: Vec<usize>,
 }
 
@@ -154,11 +155,17 @@ impl<'a> Studio<'a> {
         let layout = figure.layout.clone();
         let targets = picture.team.targets();
         let hues = ink::hues(picture.map, targets);
-        let mut keys = vec![Key::Robot, Key::RobotAtRest, Key::TargetCell];
+        let mut keys = if picture.endless {
+            vec![Key::RobotGoingOn]
+        } else {
+            vec![Key::Robot, Key::RobotAtRest, Key::TargetCell]
+        };
         keys.extend(figure.keys().filter(|&key| key != Key::Height));
         let mut page = figure.page(&keys, None);
         page.shapes.push(figure.floor());
-        page.shapes.extend(target_cells(picture, &layout, &hues));
+        if !picture.endless {
+            page.shapes.extend(target_cells(picture, &layout, &hues));
+        }
         page.shapes.extend(figure.fixed());
         let drawn = raster::draw(&page)?;
         let mut palette = Palette::of(colours());
@@ -167,18 +174,19 @@ impl<'a> Studio<'a> {
         let (steps, plan) = (picture.plan.makespan(), picture.plan);
         let there =
             |step: usize| plan.row(step).iter().zip(targets).filter(|(cell, target)| cell == target).count();
-        let arrived = (0..=steps).map(there).collect();
         let moved = |step: usize| {
             let pairs = plan.row(step.saturating_sub(1)).iter().zip(plan.row(step));
             pairs.filter(|(before, now)| before != now).count()
         };
+        let counts =
+            (0..=steps).map(|step| if picture.endless { moved(step) } else { there(step) }).collect();
         let sum = |sum: &mut usize, step| {
             *sum += moved(step);
             Some(*sum)
         };
         let moves = (0..=steps).scan(0, sum).collect();
         let size = [drawn.width(), drawn.height()];
-        Ok(Self { picture, layout, palette, inks, empty, size, hues, arrived, moves })
+        Ok(Self { picture, layout, palette, inks, empty, size, hues, counts, moves })
     }
 
     /// The film at a pace, as long as it stays below the limit.
@@ -239,7 +247,7 @@ impl<'a> Studio<'a> {
             let (now, next) = (plan.at(step, robot), plan.at(step + 1, robot));
             let at = self.between(now, next, share);
             // Robots that only pass their targets do not flicker.
-            let rests = now == next && now == self.picture.team.targets()[robot];
+            let rests = !self.picture.endless && now == next && now == self.picture.team.targets()[robot];
             let ink = if rests { Ink::Resting } else { Ink::Moving };
             self.disc(&mut frame, robot, at, radius, ink);
         }
@@ -278,7 +286,8 @@ impl<'a> Studio<'a> {
 
     /// The band between title and map: the step, how many robots are at their targets, and both as a curve that grows.
     fn band(&mut self, frame: &mut [u8], pace: Pace, step: usize) -> Result<(), Error> {
-        let scene = band(&self.layout, &self.arrived, self.hues.len(), pace, step);
+        let what = if self.picture.endless { "moved" } else { "at target" };
+        let scene = band(&self.layout, &self.counts, what, self.hues.len(), pace, step);
         let drawn = raster::draw(&scene)?;
         let from = (self.layout.origin[1] - self.layout.style.band) as usize * drawn.width() as usize;
         let numbers = self.palette.numbers(&drawn);
@@ -295,20 +304,19 @@ enum Ink {
     Trail,
 }
 
-fn band(layout: &Layout, arrived: &[usize], robots: usize, pace: Pace, step: usize) -> Scene {
+fn band(layout: &Layout, counts: &[usize], what: &str, robots: usize, pace: Pace, step: usize) -> Scene {
     let Layout { style, origin, map_size, width, .. } = layout;
     let (size, height) = (style.text_size, style.band - 6.0);
-    let steps = arrived.len() - 1;
+    let steps = counts.len() - 1;
     let [left, right] = [origin[0].min(style.margin), (origin[0] + map_size[0]).max(width - style.margin)];
     let speed = if pace.steps > 1 { format!(" · {} a frame", pace.steps) } else { String::new() };
     let time = |step: usize| format!("step {step} of {steps}{speed}");
-    let count =
-        |count: usize| format!("{} of {} at target", thousands(count as u64), thousands(robots as u64));
+    let count = |count: usize| format!("{} of {} {what}", thousands(count as u64), thousands(robots as u64));
     // As wide as they will ever be: the curve does not move.
     let [before, behind] = [time(steps), count(robots)].map(|text| font::width(&text, size, false) + size);
     let (from, to) = (left + before, right - behind);
     let point = |at: usize| {
-        let share = arrived[at] as f64 / robots.max(1) as f64;
+        let share = counts[at] as f64 / robots.max(1) as f64;
         [from + (to - from) * at as f64 / steps.max(1) as f64, height - 1.0 - (height - 3.0) * share]
     };
     let box_ = |to: f64| vec![[from, 1.0], [to, 1.0], [to, height], [from, height]];
@@ -331,7 +339,7 @@ fn band(layout: &Layout, arrived: &[usize], robots: usize, pace: Pace, step: usi
         shapes.push(Shape::Text(Text { at, size, centred: false, bold: false, colour: TEXT, content }));
     };
     text(left, time(step));
-    let now = count(arrived[step]);
+    let now = count(counts[step]);
     text(right - font::width(&now, size, false), now);
     Scene { width: *width, height: style.band, title: String::new(), description: String::new(), shapes }
 }
@@ -369,7 +377,7 @@ fn colours() -> impl Iterator<Item = Rgb> {
 mod tests {
     use super::*;
     use crate::FleetView;
-    use activecell::{Lattice, Map, Rng, Team};
+    use activecell::{Lattice, Map, Team};
     use activecell_fleet::{Limits, Options, solve};
 
     #[test]
@@ -387,15 +395,7 @@ mod tests {
     /// Robots on a floor, some of which rest early.
     fn case(lattice: Lattice, seed: u64) -> (Map, Team, activecell::Plan) {
         let map = Map::random(lattice, 14, 11, 0.1, seed).expect("a map");
-        let mut rng = Rng::new(seed);
-        let mut free: Vec<Cell> = map.free().collect();
-        let mut draw = || {
-            for i in (1..free.len()).rev() {
-                free.swap(i, rng.below(i as u32 + 1) as usize);
-            }
-            free[..20].to_vec()
-        };
-        let team = Team::new(&map, draw(), draw()).expect("a team");
+        let team = Team::random(&map, 20, seed).expect("a team");
         let limits = Limits { time: None, steps: Some(10_000), first: true, ..Limits::default() };
         let options = Options { limits, ..Options::default() };
         let plan = solve(&map, &team, &options, |_| {}).expect("a floor").plan;
@@ -406,9 +406,16 @@ mod tests {
     fn discs_are_where_the_plan_says() {
         for (lattice, seed) in Lattice::ALL.into_iter().flat_map(|lattice| [(lattice, 3), (lattice, 8)]) {
             let (map, team, plan) = case(lattice, seed);
-            let view = FleetView::Fitting;
-            let picture =
-                FleetPicture { map: &map, title: "", team: &team, plan: &plan, lower_bound: None, view };
+            let (endless, view) = (seed == 8, FleetView::Fitting);
+            let picture = FleetPicture {
+                map: &map,
+                title: "",
+                team: &team,
+                plan: &plan,
+                lower_bound: None,
+                endless,
+                view,
+            };
             let mut studio = Studio::new(&picture, "", &FilmLimits::default()).expect("a canvas");
             for (frames, steps) in [(1, 1), (4, 1), (1, 3)] {
                 let pace = Pace { frames, steps };
@@ -419,7 +426,8 @@ mod tests {
                         let [x, y] = studio.layout.centre(plan.at(step, robot)).map(|at| at as usize);
                         let drawn = frame[y * studio.size[0] as usize + x];
                         let target = team.targets()[robot];
-                        let rests = [step, step + 1].iter().all(|&step| plan.at(step, robot) == target);
+                        let rests =
+                            !endless && [step, step + 1].iter().all(|&step| plan.at(step, robot) == target);
                         let mut wanted = 0;
                         let share = if rests { AT_REST } else { 1.0 };
                         studio.inks.put(&mut wanted, studio.hues[robot], share);

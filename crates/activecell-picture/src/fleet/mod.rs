@@ -26,6 +26,8 @@ pub struct FleetPicture<'a> {
     pub plan: &'a Plan,
     /// What no plan's sum of costs is below, if it is known: as [`Team::lower_bound`].
     pub lower_bound: Option<u64>,
+    /// Whether the robots would go on after the plan: then its last cells are no targets, and its costs mean nothing.
+    pub endless: bool,
     /// What a still picture shows.
     pub view: FleetView,
 }
@@ -52,8 +54,9 @@ pub enum FleetView {
 /// let team = Team::new(&map, vec![a], vec![b])?;
 /// let plan = Plan::new(1, vec![a, activecell::Cell::new(1, 0), b])?;
 /// let lower_bound = team.lower_bound(&map)?;
+/// let (endless, view) = (false, FleetView::Fitting);
 /// let picture =
-///     FleetPicture { map: &map, title: "aisle", team: &team, plan: &plan, lower_bound, view: FleetView::Fitting };
+///     FleetPicture { map: &map, title: "aisle", team: &team, plan: &plan, lower_bound, endless, view };
 /// assert!(fleet_svg(&picture).contains("aisle · 1 robot, 2 steps, sum of costs 2 (lower bound 2)"));
 /// # Ok::<(), activecell::Error>(())
 /// ```
@@ -70,8 +73,8 @@ pub fn fleet_png(picture: &FleetPicture<'_>) -> Result<Vec<u8>, Error> {
 }
 
 /// The group moving, as an animated GIF file. Robots have the colour of their target, and become pale where they come to
-/// rest there. Short plans are shown with several frames a step, long ones with several steps a frame: what was chosen is
-/// told with the film.
+/// rest there; in a run without end, that of where they stop. Short plans are shown with several frames a step, long ones
+/// with several steps a frame: what was chosen is told with the film.
 ///
 /// # Errors
 /// [`Error::Canvas`], [`Error::Encoding`].
@@ -84,7 +87,7 @@ pub fn fleet_png(picture: &FleetPicture<'_>) -> Result<Vec<u8>, Error> {
 /// # let team = Team::new(&map, vec![a], vec![b])?;
 /// # let plan = Plan::new(1, vec![a, b])?;
 /// # let picture = FleetPicture {
-/// #     map: &map, title: "", team: &team, plan: &plan, lower_bound: None, view: FleetView::Fitting };
+/// #     map: &map, title: "", team: &team, plan: &plan, lower_bound: None, endless: false, view: FleetView::Fitting };
 /// let film = fleet_gif(&picture, &FilmLimits::default())?;
 /// assert!(film.gif.starts_with(b"GIF89a"));
 /// assert_eq!((film.frames, film.frames_a_step, film.steps_a_frame), (9, 8, 1));
@@ -108,20 +111,26 @@ pub(crate) fn three(shapes: &mut Vec<Shape>, [x, y]: Point, size: f64, at_rest: 
 /// The title with the numbers of the plan.
 fn title(picture: &FleetPicture<'_>) -> String {
     let plan = picture.plan;
-    let robots = plan.robots();
     let mut text = format!(
-        "{}{}{} robot{}, {} steps, sum of costs {}",
+        "{}{}{}, {}",
         picture.title,
         if picture.title.is_empty() { "" } else { " · " },
-        thousands(robots as u64),
-        if robots == 1 { "" } else { "s" },
-        thousands(plan.makespan() as u64),
-        thousands(plan.sum_of_costs()),
+        counted(plan.robots(), "robot"),
+        counted(plan.makespan(), "step"),
     );
+    if picture.endless {
+        return text;
+    }
+    text += &format!(", sum of costs {}", thousands(plan.sum_of_costs()));
     if let Some(bound) = picture.lower_bound {
         text += &format!(" (lower bound {})", thousands(bound));
     }
     text
+}
+
+/// `1 robot`, `2 robots`.
+fn counted(count: usize, noun: &str) -> String {
+    format!("{} {noun}{}", thousands(count as u64), if count == 1 { "" } else { "s" })
 }
 
 /// A number with narrow spaces between groups of three digits, from 10 000 on.

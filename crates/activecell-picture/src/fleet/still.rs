@@ -31,7 +31,8 @@ pub(super) fn scene(picture: &FleetPicture<'_>) -> Scene {
     let mut shapes = vec![figure.floor()];
     let mut keys;
     if ways {
-        keys = vec![Key::RobotStart, Key::RobotTarget, Key::RobotWay];
+        let end = if picture.endless { Key::RobotEnd } else { Key::RobotTarget };
+        keys = vec![Key::RobotStart, end, Key::RobotWay];
         shapes.extend(figure.fixed());
         shapes.extend(marks_and_ways(&figure.layout, picture));
     } else {

@@ -18,9 +18,7 @@ use std::collections::BTreeSet;
 fn wander(map: &Map, robots: usize, steps: usize, rng: &mut Rng) -> Plan {
     let lattice = map.lattice();
     let mut free: Vec<Cell> = map.free().collect();
-    for i in (1..free.len()).rev() {
-        free.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut free);
     let robots = robots.min(free.len());
     let mut now = free[..robots].to_vec();
     let mut cells = now.clone();

@@ -100,7 +100,8 @@ fn steps(args: &FleetArgs, robots: usize) -> Result<usize, WrongArgument> {
     if steps <= most {
         return Ok(steps);
     }
-    Err(WrongArgument(format!("--steps {steps}: a run of {robots} robots may have {most}; take fewer steps")))
+    let robots = counted(robots as u64, "robot");
+    Err(WrongArgument(format!("--steps {steps}: a run of {robots} may have {most}; take fewer steps")))
 }
 
 fn options(args: &FleetArgs, setting: &Setting) -> LifelongOptions {

@@ -2,7 +2,7 @@
 
 use crate::args::{FleetArgs, GenerateArg, WrongArgument};
 use crate::commands::group::Group;
-use crate::commands::{load, team};
+use crate::commands::{counted, load, team};
 use crate::terminal::Terminal;
 use activecell::{Cell, Error, Map, Task};
 use activecell_fleet::{deliveries, visits, within_reach};
@@ -104,8 +104,9 @@ fn starts(args: &FleetArgs, map: &Map) -> anyhow::Result<Vec<Cell>> {
 fn first(args: &FleetArgs, mut starts: Vec<Cell>, path: &Path) -> Result<Vec<Cell>, WrongArgument> {
     let robots = args.robots.unwrap_or(starts.len());
     if robots > starts.len() {
-        let (path, all) = (path.display(), starts.len());
-        let message = format!("{path} has {all} starts, too few for {robots} robots; take fewer robots");
+        let (path, all) = (path.display(), counted(starts.len() as u64, "start"));
+        let robots = counted(robots as u64, "robot");
+        let message = format!("{path} has {all}, too few for {robots}; take fewer robots");
         return Err(WrongArgument(message));
     }
     starts.truncate(robots);

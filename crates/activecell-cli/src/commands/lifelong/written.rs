@@ -8,7 +8,7 @@ use crate::terminal::Terminal;
 use activecell::{Cell, Dir, Journal, Lattice, News, Plan, Team};
 use activecell_formats::files;
 use activecell_formats::lorr::{Output, TaskEvent, write_output};
-use activecell_formats::plan::{PlanFile, PlanFormat, Stated};
+use activecell_formats::plan::{PlanFile, PlanFormat};
 use activecell_picture::{FleetPicture, FleetView};
 use anyhow::Context;
 use std::path::Path;
@@ -77,13 +77,8 @@ fn output(
 
 /// The cells of the run, as a plan that ends where the robots are at its end.
 fn cells(args: &FleetArgs, setting: &Setting, journal: &Journal) -> anyhow::Result<PlanFile> {
-    let stated = Stated {
-        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
-        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
-        seed: Some(args.seed),
-        ..Stated::default()
-    };
-    Ok(PlanFile { lattice: Some(setting.map.lattice()), stated, ..PlanFile::new(plan(journal)?) })
+    let (lattice, stated) = (Some(setting.map.lattice()), fleet::stated(args));
+    Ok(PlanFile { lattice, stated, ..PlanFile::new(plan(journal)?) })
 }
 
 fn plan(journal: &Journal) -> anyhow::Result<Plan> {
@@ -107,6 +102,7 @@ pub(super) fn draw(
     let name = args.map.path.file_stem().unwrap_or_default().to_string_lossy();
     let title = format!("{name} · {} tasks done", journal.finished(&setting.tasks));
     let (map, view) = (&setting.map, FleetView::default());
-    let picture = FleetPicture { map, title: &title, team: &team, plan: &plan, lower_bound: None, view };
+    let picture =
+        FleetPicture { map, title: &title, team: &team, plan: &plan, lower_bound: None, endless: true, view };
     fleet::draw(pictures, &picture, terminal)
 }

@@ -163,9 +163,12 @@ fn text(report: &ExecutionReport) -> String {
         _ => figures(*makespan),
     };
     format!(
-        "plan: {robots} robots, {moves} moves, {}; executed {}\narrived        all, without a collision\nmakespan       planned {planned_makespan} steps; {makespan}\nlate           {}\nheld up        {}\nwaited         {}\n",
+        "plan: {}, {}, {}; executed {}\narrived        all, without a collision\nmakespan       planned {}; {makespan}\nlate           {}\nheld up        {}\nwaited         {}\n",
+        counted(*robots as u64, "robot"),
+        counted(*moves as u64, "move"),
         counted(*rings as u64, "ring"),
         if *trials == 1 { "once".to_owned() } else { format!("{trials} times") },
+        counted(*planned_makespan as u64, "step"),
         figures(report.late),
         figures(report.held_up),
         figures(report.waited),

@@ -1,7 +1,7 @@
 //! The search of a window against every way there is.
 
 use super::*;
-use crate::{Fields, Floor, Goal};
+use crate::{Fields, Floor};
 use activecell::{Lattice, Map};
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -54,9 +54,7 @@ fn naive(local: &Local<'_>, robot: u32, start: u32, hurried: bool, lead: &[u32])
 /// Any other cell of the floor's largest part for each robot, no two alike.
 fn draw(cells: &[u32], count: usize, rng: &mut Rng) -> Vec<u32> {
     let mut cells = cells.to_vec();
-    for i in (1..cells.len()).rev() {
-        cells.swap(i, rng.below(i as u32 + 1) as usize);
-    }
+    rng.shuffle(&mut cells);
     cells.truncate(count);
     cells
 }
@@ -75,13 +73,10 @@ fn no_way_through_the_window_costs_less() {
         let (starts, targets) = (draw(&part, robots, &mut rng), draw(&part, robots, &mut rng));
         let robots = starts.len();
         let mut fields = Fields::new(&floor);
-        let slots = fields.request(&floor, &targets, 1).unwrap();
-        let goals: Vec<Goal> =
-            targets.into_iter().zip(slots).map(|(target, slot)| Goal { target, slot }).collect();
+        let goals = fields.goals(&floor, &targets, 1).unwrap();
         let problem = Problem { floor: &floor, fields: &fields, goals: &goals, starts: &starts };
         let mut local = Local::new(problem, 1 + rng.below(8), seed);
-        let ahead: Vec<u32> =
-            starts.iter().zip(&goals).map(|(&start, goal)| fields.steps(&floor, goal.slot, start)).collect();
+        let ahead = problem.distances();
         let mut ways_beforehand = rng.chance(0.5).then(|| Ways::new(problem, &ahead, seed, &|| false));
         let mut now = starts.clone();
         let mut wishes = Vec::new();

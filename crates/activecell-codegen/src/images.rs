@@ -1,0 +1,93 @@
+//! Memory images and traces of the program player, which Verilog and VHDL share.
+
+use crate::SourceFile;
+use crate::model::player::{Motion, OBSTACLES, Segment};
+use crate::model::player_trace::{Stretch, trace};
+use activecell::Error;
+
+/// Segments that a player's numbers of 16 bits can count.
+const SEGMENTS_MAX: usize = u16::MAX as usize;
+
+/// A program as it lies in a player's memory.
+pub(crate) struct ProgramImage {
+    /// How many segments.
+    pub(crate) segments: usize,
+    /// Bits of a segment's number, which counts to `segments`.
+    pub(crate) segment_bits: u32,
+    /// Bits of the ticks.
+    pub(crate) tick_bits: u32,
+    /// A word a segment and one for the end, each with what it means: from the top bit the end, the motion, the ticks.
+    pub(crate) words: Vec<(u64, String)>,
+}
+
+impl ProgramImage {
+    /// The program that these segments are.
+    ///
+    /// # Errors
+    /// [`Error::BadValue`] for more segments than the player counts, and for segments without a tick.
+    pub(crate) fn of(segments: &[Segment]) -> Result<Self, Error> {
+        if segments.len() > SEGMENTS_MAX {
+            return Err(Error::BadValue {
+                name: "the program's number of runs and turns",
+                value: segments.len() as f64,
+                allowed: "at most 65535; split the route",
+            });
+        }
+        if let Some(place) = segments.iter().position(|segment| segment.ticks == 0) {
+            return Err(Error::BadValue {
+                name: "the number of a segment without a tick",
+                value: place as f64,
+                allowed: "left out: every segment lasts at least one tick",
+            });
+        }
+        let most = segments.iter().map(|segment| segment.ticks).max().unwrap_or(1);
+        let tick_bits = bits(most);
+        let word = |(place, segment): (usize, &Segment)| {
+            let motion = Motion::ALL.iter().position(|&motion| motion == segment.motion).unwrap_or(0) as u64;
+            let about = format!("{place}: {}, {} ticks", segment.motion.name(), segment.ticks);
+            (motion << tick_bits | u64::from(segment.ticks), about)
+        };
+        let end = (1 << (tick_bits + 2), "the end".into());
+        Ok(Self {
+            segments: segments.len(),
+            segment_bits: bits(segments.len() as u32),
+            tick_bits,
+            words: segments.iter().enumerate().map(word).chain([end]).collect(),
+        })
+    }
+
+    /// Bits of a word.
+    pub(crate) const fn word_bits(&self) -> u32 {
+        self.tick_bits + 3
+    }
+
+    /// For `$readmemh`.
+    pub(crate) fn hex(&self) -> SourceFile {
+        let digits = self.word_bits().div_ceil(4) as usize;
+        let lines = self.words.iter().map(|(word, about)| format!("{word:0digits$x} // {about}\n"));
+        SourceFile::new("rtl/player.hex", lines.collect::<String>())
+    }
+}
+
+/// The bits of a number, at least one.
+const fn bits(number: u32) -> u32 {
+    let bits = u32::BITS - number.leading_zeros();
+    if bits == 0 { 1 } else { bits }
+}
+
+/// What the player does on a rough drive, and how many lines that are: a stretch a line, as `player_tb` reads it.
+pub(crate) fn player_trace(segments: &[Segment]) -> (SourceFile, usize) {
+    let stretches = trace(segments, 1);
+    let text = stretches.iter().map(line).collect::<String>();
+    (SourceFile::new("tb/player.hex", text), stretches.len())
+}
+
+/// 16 digits: clocks, segment, done, q3 to q0, then go, tick and the obstacles.
+fn line(stretch: &Stretch) -> String {
+    let q = stretch.state.outputs().iter().rev().fold(0, |q, &output| q << 1 | u8::from(output));
+    let senses = stretch.senses;
+    let told =
+        u8::from(senses.go) << 5 | u8::from(senses.tick) << 4 | (senses.obstacles.0 & OBSTACLES.0) >> 2;
+    let (clocks, segment, done) = (stretch.clocks, stretch.segment, u8::from(stretch.done));
+    format!("{clocks:08x}_{segment:04x}_{done:x}_{q:x}_{told:02x}\n")
+}

@@ -1,0 +1,114 @@
+//! The fabric: a small automaton for every cell of the map.
+
+use super::module;
+use crate::template::fill;
+use crate::{SourceFile, circuits};
+use activecell::{Cell, Dir, Error, Lattice, Map};
+
+/// The most cells that a fabric may have; larger maps do not fit into the FPGAs that this is for.
+pub const MAX_FABRIC_CELLS: u64 = 4096;
+
+/// The fabric of a map's lattice and size: the cell's rule, the cell, and all of them with their control.
+///
+/// Loadable, its map comes through a chain of registers; else it is the map given, and obstacles take no hardware.
+///
+/// # Errors
+/// [`Error::MapTooLarge`] above [`MAX_FABRIC_CELLS`]: such maps are for the windowed navigator.
+pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
+    let (width, height) = (map.width().into(), map.height().into());
+    if width * height > MAX_FABRIC_CELLS {
+        return Err(Error::MapTooLarge { width, height, limit: MAX_FABRIC_CELLS });
+    }
+    let lattice = map.lattice();
+    let step = circuits::fabric_cell(lattice);
+    Ok(vec![
+        SourceFile::new(format!("rtl/{}.v", step.name), module(&step)),
+        SourceFile::new(
+            format!("rtl/fabric_cell_{lattice}.v"),
+            for_lattice(lattice, include_str!("templates/fabric_cell.v")),
+        ),
+        SourceFile::new("rtl/fabric.v", top(map, loadable)),
+    ])
+}
+
+/// How many bits hold the numbers below `count`.
+pub(crate) const fn bits_below(count: u32) -> u32 {
+    if count < 2 { 1 } else { (count - 1).ilog2() + 1 }
+}
+
+/// What depends on the lattice alone.
+fn for_lattice(lattice: Lattice, template: &str) -> String {
+    let degree = lattice.degree();
+    let names: Vec<&str> = lattice.dirs().map(|dir| lattice.dir_name(dir)).collect();
+    let (degree, top) = (degree.to_string(), (degree - 1).to_string());
+    let values =
+        [("LATTICE", lattice.name()), ("DEGREE", &degree), ("TOP", &top), ("NAMES", &names.join(", "))];
+    fill(template, &values)
+}
+
+fn top(map: &Map, loadable: bool) -> String {
+    let lattice = map.lattice();
+    let (ports, storage) = if loadable {
+        (
+            include_str!("templates/fabric_map_ports.v"),
+            include_str!("templates/fabric_map_loaded.v").to_owned(),
+        )
+    } else {
+        ("", include_str!("templates/fabric_map_fixed.v").replace("@ROWS@\n", &rows(map)))
+    };
+    let odd = match lattice {
+        Lattice::Square => "",
+        Lattice::Hex => {
+            "                localparam ODD = y % 2; // odd rows are shifted right by half a cell\n"
+        }
+    };
+    let reached = lanes(lattice, |neighbour, _| format!("reached[{neighbour}]"));
+    let entering = lanes(lattice, |neighbour, dir| {
+        format!("leaving[{}*{neighbour} + {}]", lattice.degree(), lattice.opposite(dir).0)
+    });
+    for_lattice(lattice, include_str!("templates/fabric.v"))
+        .replace("@MAP_PORTS@", ports)
+        .replace("@MAP@\n", &storage)
+        .replace("@ODD@", odd)
+        .replace("@REACHED@\n", &reached)
+        .replace("@ENTERING@\n", &entering)
+        .replace("@WIDTH@", &map.width().to_string())
+        .replace("@HEIGHT@", &map.height().to_string())
+        .replace("@COLUMN_BITS@", &bits_below(map.width()).to_string())
+        .replace("@ROW_BITS@", &bits_below(map.height()).to_string())
+}
+
+/// The map as rows of bits that read as it lies.
+fn rows(map: &Map) -> String {
+    let bit = |x, y| if map.obstacles().get(x, y) { '1' } else { '0' };
+    let row = |y| (0..map.width()).map(|x| bit(x, y)).collect::<String>();
+    let rows: Vec<String> =
+        (0..map.height()).map(|y| format!("        {}'b{}", map.width(), row(y))).collect();
+    rows.join(",\n") + "\n"
+}
+
+/// A wire from each neighbour, the last lane first.
+fn lanes(lattice: Lattice, wire: impl Fn(&str, Dir) -> String) -> String {
+    let lanes: Vec<String> = lattice
+        .dirs()
+        .rev()
+        .map(|dir| {
+            let comma = if dir.0 == 0 { "" } else { "," };
+            let wire = wire(&neighbour(lattice, dir), dir) + comma;
+            format!("                        {wire:<40} // {}\n", lattice.dir_name(dir))
+        })
+        .collect();
+    lanes.concat()
+}
+
+/// The number of a neighbour, from the core's offsets in even and odd rows.
+fn neighbour(lattice: Lattice, dir: Dir) -> String {
+    let [even, odd] = [0, 1].map(|y| lattice.neighbour(Cell::new(0, y), dir));
+    let shift = if odd.x == even.x { "" } else { " + ODD" };
+    let offset = |step: i32| match step {
+        0 => String::new(),
+        step if step < 0 => format!(" - {}", -step),
+        step => format!(" + {step}"),
+    };
+    format!("at(x{}{shift}, y{})", offset(even.x), offset(even.y))
+}

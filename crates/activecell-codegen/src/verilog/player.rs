@@ -1,0 +1,61 @@
+//! The control unit with its state, and the program player around it.
+
+use super::module;
+use crate::images::{ProgramImage, player_trace};
+use crate::model::player::Segment;
+use crate::template::fill;
+use crate::{SourceFile, circuits};
+use activecell::Error;
+use activecell::control::State;
+
+/// The control unit of the core as a state machine: `control_unit`, and its table `control_next`.
+///
+/// ```
+/// let files = activecell_codegen::verilog::control_unit();
+/// let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+/// assert_eq!(paths, ["rtl/control_next.v", "rtl/control_unit.v"]);
+/// ```
+pub fn control_unit() -> Vec<SourceFile> {
+    let calm = (State::Calm as u8).to_string();
+    let unit = fill(include_str!("templates/control_unit.v"), &[("CALM", &calm)]);
+    vec![
+        SourceFile::new("rtl/control_next.v", module(&circuits::control())),
+        SourceFile::new("rtl/control_unit.v", unit),
+    ]
+}
+
+/// The player of a program ([`crate::model::player`]): `player_top` for the pins of a chip, in it `player`, and the
+/// test bench `player_tb`.
+///
+/// # Errors
+/// [`Error::BadValue`] for more segments than the player counts, and for segments without a tick.
+///
+/// ```
+/// use activecell_codegen::{model::player::{Motion, Segment}, verilog};
+/// let files = verilog::player(&[Segment { motion: Motion::Forward, ticks: 200 }])?;
+/// let image = files.iter().find(|file| file.path == "rtl/player.hex").unwrap();
+/// assert_eq!(image.text, "0c8 // 0: forward, 200 ticks\n400 // the end\n");
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
+    let image = ProgramImage::of(segments)?;
+    let (trace, lines) = player_trace(segments);
+    let values = [
+        ("SEGMENTS", image.segments.to_string()),
+        ("SEGMENT_BITS", image.segment_bits.to_string()),
+        ("TICK_BITS", image.tick_bits.to_string()),
+        ("LINES", lines.to_string()),
+    ];
+    let values = values.each_ref().map(|(name, value)| (*name, value.as_str()));
+    let mut files = control_unit();
+    files.extend([
+        SourceFile::new("rtl/player_inputs.v", module(&circuits::player())),
+        SourceFile::new("rtl/encoder_edge.v", include_str!("templates/encoder_edge.v")),
+        SourceFile::new("rtl/player.v", fill(include_str!("templates/player.v"), &values)),
+        image.hex(),
+        SourceFile::new("rtl/player_top.v", include_str!("templates/player_top.v")),
+        SourceFile::new("tb/player_tb.v", fill(include_str!("templates/player_tb.v"), &values)),
+        trace,
+    ]);
+    Ok(files)
+}

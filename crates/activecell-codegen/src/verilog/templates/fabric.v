@@ -1,0 +1,152 @@
+// The fabric: the map as cells of hardware, each a small automaton (@LATTICE@ lattice, @WIDTH@ by @HEIGHT@ cells).
+//
+// A wave spreads from the target, a cell a clock. Each free cell keeps the direction from which the wave came first.
+// When the wave comes to the start, the start becomes the active cell; the active bit then follows the pointers,
+// a move a clock, along a shortest way. At the target, which has no pointer, it ends.
+//
+// Cells are counted in columns from the left and rows from the top, from 0.
+module fabric #(
+    parameter WIDTH = @WIDTH@,         // columns
+    parameter HEIGHT = @HEIGHT@,        // rows
+    parameter COLUMN_BITS = @COLUMN_BITS@,    // enough for WIDTH - 1
+    parameter ROW_BITS = @ROW_BITS@        // enough for HEIGHT - 1
+) (
+    input  wire                   clk,
+    input  wire                   reset,       // ends any task
+@MAP_PORTS@    input  wire                   begin_task,  // takes the four inputs below and begins, also within a task
+    input  wire [COLUMN_BITS-1:0] start_x,
+    input  wire [ROW_BITS-1:0]    start_y,
+    input  wire [COLUMN_BITS-1:0] target_x,
+    input  wire [ROW_BITS-1:0]    target_y,
+    output reg                    busy,        // a task is being done
+    output reg                    moving,      // the robot was in the cell below, two clocks ago
+    output reg  [COLUMN_BITS-1:0] at_x,        // where the robot was, two clocks ago; where it stopped
+    output reg  [ROW_BITS-1:0]    at_y,
+    output reg                    arrived,     // the task is done: the robot is at the target
+    output reg                    unreachable  // the task is done: the wave stopped before it came to the start
+);
+    localparam CELLS = WIDTH * HEIGHT;
+
+    // The number of a cell in row order; CELLS for all that lies outside, where nothing is ever reached.
+    function integer at(input integer x, input integer y);
+        at = x < 0 || x >= WIDTH || y < 0 || y >= HEIGHT ? CELLS : y * WIDTH + x;
+    endfunction
+
+@MAP@
+    wire clear = stop | begin_task;
+
+    // What the cells show each other. Lane j of a cell is bit @DEGREE@ * number + j.
+    wire [CELLS:0]     reached;
+    wire [CELLS-1:0]   active;
+    wire [CELLS-1:0]   is_front;
+    wire [@DEGREE@*CELLS-1:0] pointer;
+    wire [@DEGREE@*CELLS+@TOP@:0] leaving;
+    assign reached[CELLS] = 1'b0;
+    assign leaving[@DEGREE@*CELLS +: @DEGREE@] = @DEGREE@'b0;
+
+    // The task, one bit a column and a row: short wires instead of comparisons in every cell.
+    reg [WIDTH-1:0]  start_column;
+    reg [HEIGHT-1:0] start_row;
+    reg [WIDTH-1:0]  target_column;
+    reg [HEIGHT-1:0] target_row;
+    integer i;
+    always @(posedge clk)
+        if (begin_task) begin
+            for (i = 0; i < WIDTH; i = i + 1) begin
+                start_column[i] <= start_x == i;
+                target_column[i] <= target_x == i;
+            end
+            for (i = 0; i < HEIGHT; i = i + 1) begin
+                start_row[i] <= start_y == i;
+                target_row[i] <= target_y == i;
+            end
+        end
+
+    genvar x, y;
+    generate
+        for (y = 0; y < HEIGHT; y = y + 1) begin : row
+            for (x = 0; x < WIDTH; x = x + 1) begin : column
+                localparam HERE = y * WIDTH + x;
+@ODD@                fabric_cell_@LATTICE@ cell_here (
+                    .clk(clk),
+                    .clear(clear),
+                    .is_obstacle(obstacles[HERE]),
+                    .is_target(target_column[x] & target_row[y]),
+                    .is_start(start_column[x] & start_row[y]),
+                    .reached_around({
+@REACHED@
+                    }),
+                    .entering({
+@ENTERING@
+                    }),
+                    .reached(reached[HERE]),
+                    .is_front(is_front[HERE]),
+                    .pointer(pointer[@DEGREE@*HERE +: @DEGREE@]),
+                    .active(active[HERE]),
+                    .leaving(leaving[@DEGREE@*HERE +: @DEGREE@])
+                );
+            end
+        end
+    endgenerate
+
+    // Where the active cell is, and whether the wave still spreads: by rows and columns, then altogether, each in a
+    // clock, so that the fabric's speed is that of its cells.
+    reg [WIDTH-1:0]  active_column;
+    reg [HEIGHT-1:0] active_row;
+    reg [HEIGHT-1:0] front_row;
+    generate
+        for (y = 0; y < HEIGHT; y = y + 1) begin : row_sum
+            always @(posedge clk) begin
+                active_row[y] <= |active[y*WIDTH +: WIDTH] & ~clear;
+                front_row[y] <= |is_front[y*WIDTH +: WIDTH] & ~clear;
+            end
+        end
+        for (x = 0; x < WIDTH; x = x + 1) begin : column_sum
+            wire [HEIGHT-1:0] cells;
+            for (y = 0; y < HEIGHT; y = y + 1) begin : pick
+                assign cells[y] = active[y*WIDTH + x];
+            end
+            always @(posedge clk)
+                active_column[x] <= |cells & ~clear;
+        end
+    endgenerate
+
+    reg [COLUMN_BITS-1:0] active_x;
+    reg [ROW_BITS-1:0]    active_y;
+    always @* begin
+        active_x = 0;
+        active_y = 0;
+        for (i = 0; i < WIDTH; i = i + 1)
+            active_x = active_x | (active_column[i] ? i[COLUMN_BITS-1:0] : 0);
+        for (i = 0; i < HEIGHT; i = i + 1)
+            active_y = active_y | (active_row[i] ? i[ROW_BITS-1:0] : 0);
+    end
+
+    // The control: a task ends when the active cell is the target, or when the wave has stopped and no cell is active.
+    wire at_target = |(active_column & target_column) & |(active_row & target_row);
+    reg [3:0] warm_up;     // clocks from the beginning until the wave is seen here
+    reg       front_seen;  // the wave still spread, two clocks ago
+    wire      stopped = warm_up[3] & ~front_seen & ~moving;
+    always @(posedge clk) begin
+        if (clear) begin
+            busy <= ~stop;
+            warm_up <= 4'b0001;
+            front_seen <= 1'b0;
+            moving <= 1'b0;
+            arrived <= 1'b0;
+            unreachable <= 1'b0;
+        end else begin
+            warm_up <= {warm_up[3] | warm_up[2], warm_up[1:0], 1'b0};
+            front_seen <= |front_row;
+            moving <= |active_row;
+            arrived <= arrived | at_target;
+            unreachable <= unreachable | busy & stopped & ~arrived;
+            if (at_target | stopped)
+                busy <= 1'b0;
+        end
+        if (|active_row) begin
+            at_x <= active_x;
+            at_y <= active_y;
+        end
+    end
+endmodule

@@ -1,0 +1,6 @@
+    // The map: 1 for an obstacle. Cells that are obstacles need no hardware.
+    localparam [0:CELLS-1] OBSTACLES = {
+@ROWS@
+    };
+    wire [0:CELLS-1] obstacles = OBSTACLES;
+    wire stop = reset;

@@ -1,0 +1,290 @@
+//! The program player in Verilog does what its model does, clock by clock, and what must never happen does not.
+
+mod common;
+
+use activecell::control::Inputs;
+use activecell::{Cell, Dir, Drive, Lattice, Map, Rng, Robot, Rule};
+use activecell_codegen::model::player::{Motion, Player, Segment, Senses, segments};
+use activecell_codegen::{SourceFile, verilog};
+use common::cxxrtl::Simulation;
+use common::formal;
+use std::path::Path;
+
+/// A program of a random route over a random map of either lattice, for a random robot.
+fn program(rng: &mut Rng) -> Vec<Segment> {
+    loop {
+        let lattice = Lattice::ALL[rng.below(2) as usize];
+        let cell =
+            |i: u32, rng: &mut Rng| if i % 12 == 11 { '\n' } else { ['#', '.', '.'][rng.below(3) as usize] };
+        let map = Map::parse(lattice, &(0..143).map(|i| cell(i, rng)).collect::<String>()).expect("a map");
+        let robot = Robot {
+            drive: [Drive::Steered, Drive::Differential][rng.below(2) as usize],
+            ticks_per_rev: f64::from(1 + rng.below(4)),
+            can_reverse: rng.below(2) == 0,
+            ..Robot::default()
+        };
+        let [from, to] = [0, 1].map(|_| Cell::new(rng.below(11) as i32, rng.below(12) as i32));
+        if let Ok(route) = map.route(Rule::Wave, from, to, 1000) {
+            let heading = Dir(rng.below(lattice.degree().into()) as u8);
+            return segments(&route.program(&robot, &map, Some(heading)), &robot, lattice).expect("segments");
+        }
+    }
+}
+
+/// Segments that no route has: many, short ones, motions in any order.
+fn strange(rng: &mut Rng) -> Vec<Segment> {
+    let count = rng.below(64);
+    let longest = 1 + rng.below(255);
+    let segment =
+        |rng: &mut Rng| Segment { motion: Motion::ALL[rng.below(4) as usize], ticks: 1 + rng.below(longest) };
+    (0..count).map(|_| segment(rng)).collect()
+}
+
+fn senses(rng: &mut Rng) -> Senses {
+    let obstacles = if rng.below(2) == 0 { Inputs((rng.below(16) << 2) as u8) } else { Inputs::default() };
+    Senses { go: rng.below(8) > 0, tick: rng.below(4) > 0, obstacles }
+}
+
+fn write(folder: &Path, files: &[SourceFile]) {
+    for file in files {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
+        std::fs::write(path, &file.text).expect("the file can be written");
+    }
+}
+
+/// All but `player_top`.
+const SOURCES: &str =
+    "rtl/control_next.v rtl/control_unit.v rtl/player_inputs.v rtl/encoder_edge.v rtl/player.v";
+
+/// Programs in, what the player shows after each clock out. The memory is filled anew for each program.
+const MAIN: &str = r"
+static int byte() { return std::getchar(); }
+
+int main() {
+    for (int words = byte(); words != EOF; words = byte()) {
+        cxxrtl_design::p_player player;
+        for (int place = 0; place < words; place++) {
+            uint32_t word = byte();
+            player.memory_p_words[place].set<uint32_t>(word | byte() << 8);
+        }
+        uint32_t clocks = byte();
+        clocks |= byte() << 8;
+        for (uint32_t clock = 0; clock < clocks + 2; clock++) {
+            uint32_t told = clock < 2 ? 64 : byte();
+            player.p_reset.set<bool>(told >> 6 & 1);
+            player.p_go.set<bool>(told >> 5 & 1);
+            player.p_tick.set<bool>(told >> 4 & 1);
+            player.p_obstacles.set<uint32_t>(told & 15);
+            player.p_clk.set<bool>(true);
+            player.step();
+            player.p_clk.set<bool>(false);
+            player.step();
+            std::putchar(player.p_q0.get<uint32_t>() | player.p_q1.get<uint32_t>() << 1 | player.p_q2.get<uint32_t>() << 2
+                         | player.p_q3.get<uint32_t>() << 3 | player.p_done.get<uint32_t>() << 4);
+            std::putchar(player.p_segment.get<uint32_t>());
+        }
+    }
+}
+";
+
+/// A program as the simulation reads it: ticks of 8 bits, the motion above them, the end above that.
+fn told(segments: &[Segment], senses: &[Senses]) -> Vec<u8> {
+    let number =
+        |motion: Motion| Motion::ALL.iter().position(|&other| other == motion).expect("a motion") as u32;
+    let words = segments.iter().map(|segment| number(segment.motion) << 8 | segment.ticks).chain([1 << 10]);
+    let mut bytes = vec![segments.len() as u8 + 1];
+    bytes.extend(words.flat_map(|word| (word as u16).to_le_bytes()));
+    bytes.extend((senses.len() as u16).to_le_bytes());
+    bytes.extend(
+        senses
+            .iter()
+            .map(|senses| u8::from(senses.go) << 5 | u8::from(senses.tick) << 4 | senses.obstacles.0 >> 2),
+    );
+    bytes
+}
+
+fn shown(player: &Player) -> [u8; 2] {
+    let outputs = player.state().outputs();
+    let q = outputs.iter().enumerate().map(|(place, &output)| u8::from(output) << place).sum::<u8>();
+    [q | u8::from(player.done()) << 4, player.segment() as u8]
+}
+
+#[test]
+fn verilog_plays_as_the_model_clock_by_clock() {
+    let Some(tools) = common::programs("verilog_plays_as_the_model_clock_by_clock", ["yosys", "g++"]) else {
+        return;
+    };
+    let folder = common::folder("player_cxxrtl");
+    // The widest that any of the programs needs.
+    let widest = Segment { motion: Motion::Forward, ticks: 255 };
+    write(&folder, &verilog::player(&[widest; 64]).unwrap());
+    let script = format!("read_verilog {SOURCES}; hierarchy -check -top player; flatten");
+    let simulation = Simulation::compile(&tools, &folder, &script, MAIN);
+    let mut rng = Rng::new(1);
+    let (mut input, mut expected) = (Vec::new(), Vec::new());
+    let (mut clocks, mut ended) = (0, 0);
+    for case in 0..600 {
+        let segments = if case % 2 == 0 { program(&mut rng) } else { strange(&mut rng) };
+        assert!(segments.len() <= 64 && segments.iter().all(|segment| segment.ticks < 256));
+        let senses: Vec<Senses> = (0..4000).map(|_| senses(&mut rng)).collect();
+        let mut player = Player::new(segments.clone());
+        expected.extend([shown(&player); 2]);
+        for &senses in &senses {
+            player.clock(senses);
+            expected.push(shown(&player));
+        }
+        clocks += senses.len();
+        ended += usize::from(player.done());
+        input.extend(told(&segments, &senses));
+    }
+    let output = simulation.run(&input);
+    assert_eq!(output.len(), expected.len() * 2);
+    let wrong = output.chunks(2).zip(&expected).position(|(shown, expected)| shown != expected);
+    assert_eq!(wrong, None, "the first clock that differs");
+    assert!(ended > 300, "{ended} programs came to their end");
+    println!("600 programs, {ended} to their end, {clocks} clocks: the Verilog shows what the model shows");
+}
+
+/// What the chip's pins show, a clock after another, for what they are told: go, reset and the encoders in the upper bits.
+const TOP: &str = r"
+int main() {
+    cxxrtl_design::p_player__top top;
+    for (int told = std::getchar(); told != EOF; told = std::getchar()) {
+        top.p_reset.set<bool>(told >> 7 & 1);
+        top.p_go.set<bool>(told >> 6 & 1);
+        top.p_steering.set<bool>(told >> 5 & 1);
+        top.p_wheel.set<bool>(told >> 4 & 1);
+        top.p_obstacles.set<uint32_t>(told & 15);
+        top.p_clk.set<bool>(true);
+        top.step();
+        top.p_clk.set<bool>(false);
+        top.step();
+        std::putchar(top.p_q0.get<uint32_t>() | top.p_q1.get<uint32_t>() << 1 | top.p_q2.get<uint32_t>() << 2
+                     | top.p_q3.get<uint32_t>() << 3 | top.p_done.get<uint32_t>() << 4);
+    }
+}
+";
+
+/// The pins are seen two clocks later, a pulse by its rising edge; in turns that of the steering.
+#[test]
+fn raw_pulses_are_ticks_at_their_rising_edges() {
+    let Some(tools) = common::programs("raw_pulses_are_ticks_at_their_rising_edges", ["yosys", "g++"]) else {
+        return;
+    };
+    let mut rng = Rng::new(3);
+    let segments = [Motion::Forward, Motion::Left, Motion::Reverse, Motion::Right, Motion::Forward]
+        .map(|motion| Segment { motion, ticks: 1 + rng.below(600) });
+    let folder = common::folder("player_top_cxxrtl");
+    write(&folder, &verilog::player(&segments).unwrap());
+    let script =
+        format!("read_verilog {SOURCES} rtl/player_top.v; hierarchy -check -top player_top; flatten");
+    let simulation = Simulation::compile(&tools, &folder, &script, TOP);
+    let mut pulses = [0; 2];
+    let mut told: Vec<u8> = vec![1 << 7; 4];
+    told.extend((0..40_000).map(|_| {
+        // Pulses and pauses of random length.
+        for pulse in &mut pulses {
+            *pulse ^= u8::from(rng.below(5) == 0);
+        }
+        let senses = senses(&mut rng);
+        u8::from(senses.go) << 6 | pulses[1] << 5 | pulses[0] << 4 | senses.obstacles.0 >> 2
+    }));
+    let mut player = Player::new(segments.to_vec());
+    let expected = (3..told.len()).map(|clock| {
+        let (seen, before) = (told[clock - 2], told[clock - 3]);
+        let turning = matches!(player.wanted(), Some(Motion::Left | Motion::Right));
+        let pulse = if turning { 1 << 5 } else { 1 << 4 };
+        // A pulse that was there at reset is none.
+        let tick = seen & !before & pulse != 0 && clock > 5;
+        if clock > 5 {
+            player.clock(Senses { go: seen >> 6 & 1 == 1, tick, obstacles: Inputs((seen & 15) << 2) });
+        }
+        shown(&player)[0]
+    });
+    let expected: Vec<u8> = expected.collect();
+    assert_eq!(simulation.run(&told)[3..], expected);
+    assert!(player.done());
+    println!("{} clocks of raw pulses: the pins show what the model shows", told.len());
+}
+
+/// For every program of seven segments (the memory holds anything) and all inputs; wrong players are found out.
+#[test]
+fn it_never_drives_at_obstacles_nor_after_the_end() {
+    let Some(tools) = common::programs("it_never_drives_at_obstacles_nor_after_the_end", formal::TOOLS)
+    else {
+        return;
+    };
+    let mutants = [
+        ("rtl/player_inputs.v", "wire left = ~obstacles[1] &", "wire left ="),
+        ("rtl/player.v", ".done(done), .go", ".done(1'b0), .go"),
+        ("rtl/player.v", "tick & ~done & count == ticks", "tick & count == ticks"),
+        ("rtl/control_unit.v", "reset ? 3'd0 : next_state", "next_state"),
+        ("rtl/control_next.v", "wire next0 = ", "wire next0 = from_stopped | "),
+    ];
+    let whole = ("rtl/player.v", "", "");
+    for (place, (path, right, wrong)) in [whole].into_iter().chain(mutants).enumerate() {
+        let folder = common::folder(&format!("player_formal_{place}"));
+        let mut files = verilog::player(&[Segment { motion: Motion::Forward, ticks: 7 }; 7]).unwrap();
+        for file in &mut files {
+            if file.path == "rtl/player.hex" {
+                file.text = "xx\n".repeat(8);
+            }
+            if file.path == path {
+                assert!(file.text.contains(right), "{}", file.text);
+                file.text = file.text.replacen(right, wrong, 1);
+            }
+        }
+        write(&folder, &files);
+        std::fs::write(folder.join("properties.v"), include_str!("formal/player.v")).unwrap();
+        let holds = formal::holds(&tools, &folder, &format!("properties.v {SOURCES}"), "player_formal", 12);
+        assert_eq!(holds, place == 0, "{path} {wrong}");
+    }
+    println!("proven for every program of seven segments; {} wrong players refuted", mutants.len());
+}
+
+/// The test bench as it is shipped passes, and fails if what it expects is wrong.
+#[test]
+fn the_test_bench_passes_and_finds_faults() {
+    let Some([iverilog, vvp]) =
+        common::programs("the_test_bench_passes_and_finds_faults", ["iverilog", "vvp"])
+    else {
+        return;
+    };
+    let mut rng = Rng::new(2);
+    let folder = common::folder("player_bench");
+    let mut clocks = 0;
+    for case in 0..30 {
+        let segments = match case {
+            0 => Vec::new(),
+            1 => vec![Segment { motion: Motion::Reverse, ticks: 100_000 }],
+            _ => program(&mut rng),
+        };
+        let mut files = verilog::player(&segments).unwrap();
+        let is_wrong = case % 3 == 2;
+        if is_wrong {
+            let trace = files.last_mut().unwrap();
+            let place = trace.text.len() - 5; // q3 to q0 of the last line
+            trace.text.replace_range(place..=place, "2");
+        }
+        write(&folder, &files);
+        let mut compile = common::command(&iverilog, &folder);
+        compile.args([
+            "-g2005",
+            "-Wall",
+            "-o",
+            "bench",
+            "-s",
+            "player_tb",
+            "tb/player_tb.v",
+            "rtl/player_top.v",
+        ]);
+        let warnings = compile.args(SOURCES.split(' ')).output().unwrap();
+        assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
+        let said = common::run(common::command(&vvp, &folder).arg("bench"));
+        assert_eq!(said.contains("FAIL: player"), is_wrong, "{said}");
+        assert_eq!(said.contains("PASS: player"), !is_wrong, "{said}");
+        clocks += said.split_whitespace().find_map(|word| word.parse::<usize>().ok()).unwrap_or(0);
+    }
+    println!("30 programs, {clocks} clocks: 20 benches pass, 10 with a wrong expectation fail");
+}
