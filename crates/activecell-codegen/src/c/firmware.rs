@@ -2,7 +2,8 @@
 
 use super::circuit::function;
 use super::lattice;
-use crate::model::player::{self, Motion, Segment};
+use crate::model::player::{Motion, Segment};
+use crate::template::fill;
 use crate::{SourceFile, circuits};
 use activecell::control::{Inputs, State};
 use activecell::rule::Sector;
@@ -91,16 +92,6 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
     ];
     files.extend(examples.map(|(name, text)| SourceFile::new(format!("examples/{name}"), text)));
     Ok(files)
-}
-
-/// Puts texts in the places of a template.
-fn fill(template: &str, places: &[(&str, &str)]) -> String {
-    let filled = places.iter().fold(template.to_owned(), |text, (place, value)| {
-        debug_assert!(text.contains(&format!("@{place}@")), "{place} is no place of the template");
-        text.replace(&format!("@{place}@"), value)
-    });
-    debug_assert!(!filled.contains('@'), "a place was left over: {filled}");
-    filled
 }
 
 /// How the rows of a map lie in words.
@@ -272,15 +263,11 @@ fn wave(lattice: Lattice) -> String {
 }
 
 fn drive() -> String {
-    let nothing = Inputs::default();
-    let asks = Motion::ALL.map(|motion| player::inputs(Some(motion), true, nothing).0.into());
-    let blocks = Motion::ALL.map(|motion| motion.state().drives_towards().unwrap_or(nothing).0.into());
     fill(
         include_str!("templates/ac_drive.c"),
         &[
             ("CONTROL_FUNCTION", &function(&circuits::control())),
-            ("ASKS", &lattice::list(asks.into_iter())),
-            ("BLOCKS", &lattice::list(blocks.into_iter())),
+            ("PLAYER_FUNCTION", &function(&circuits::player())),
         ],
     )
 }

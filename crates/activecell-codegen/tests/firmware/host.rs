@@ -98,8 +98,8 @@ fn every_input_has_the_answer_of_the_core() {
 #[test]
 fn circuits_as_functions_compute_what_they_say() {
     let Some([gcc]) = common::programs("circuits_as_functions", ["gcc"]) else { return };
-    let both = Lattice::ALL.iter().flat_map(|&l| [circuits::sector(l), circuits::decision(l)]);
-    for circuit in both.chain([circuits::control()]) {
+    let of = |lattice| [circuits::sector, circuits::decision, circuits::fabric_cell].map(|of| of(lattice));
+    for circuit in Lattice::ALL.into_iter().flat_map(of).chain([circuits::control(), circuits::player()]) {
         let folder = written(&format!("function_{}", circuit.name), &warehouse(Lattice::Square), None);
         let name = format!("ac_{}", circuit.name);
         let arguments: Vec<String> = (0..circuit.inputs.len()).map(|place| format!("in[{place}]")).collect();

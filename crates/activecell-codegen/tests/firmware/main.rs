@@ -101,6 +101,7 @@ fn what_cannot_be_firmware_is_refused_and_lines_are_short() {
             for line in file.text.lines() {
                 assert!(line.len() <= 110 && line.trim_end() == line, "{}: {line}", file.path);
             }
+            assert!(!file.text.contains('@'), "{}: a place was not filled in", file.path);
             assert!(file.text.ends_with('\n') && !file.text.ends_with("\n\n"), "{}", file.path);
         }
     }

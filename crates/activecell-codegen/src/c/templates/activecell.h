@@ -20,6 +20,10 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#ifdef __cplusplus
+extern "C" {
+#endif
+
 /* ---- Cells, maps, moves ---- */
 
 /** A cell: column and row. */
@@ -243,4 +247,8 @@ bool ac_player_is_done(const ac_player *player);
 /** The map. */
 extern const ac_map ac_floor;
 @PROGRAM@
+#ifdef __cplusplus
+}
+#endif
+
 #endif
