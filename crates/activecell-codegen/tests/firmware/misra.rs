@@ -43,6 +43,23 @@ fn misra_finds_named_deviations_only() {
 }
 
 #[test]
+fn programs_in_other_standards_can_include_the_header() {
+    let folder = written("header", &warehouse(Lattice::Hex), Some(&PROGRAM));
+    let use_it = "#include \"activecell.h\"\nac_cell there(void);\nac_cell there(void) { return ac_neighbour(ac_cell(), AC_E); }\n";
+    std::fs::write(folder.join("user.cpp"), use_it).unwrap();
+    let Some([cpp]) = common::programs("programs_in_other_standards", ["g++"]) else { return };
+    for standard in ["-std=c++11", "-std=c++20"] {
+        let strict = [standard, "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-Iinclude"];
+        common::run(common::command(&cpp, &folder).args(strict).args(["-c", "user.cpp"]));
+    }
+    let Some([gcc]) = common::programs("programs_in_other_standards", ["gcc"]) else { return };
+    for standard in ["-std=c11", "-std=c17", "-std=gnu99"] {
+        let strict = STRICT.map(|flag| if flag == "-std=c99" { standard } else { flag });
+        common::run(common::command(&gcc, &folder).args(strict).arg("-c").args(sources(&folder)));
+    }
+}
+
+#[test]
 fn a_plain_program_is_compiled_without_a_warning_and_runs() {
     let Some([gcc]) = common::programs("a_plain_program", ["gcc"]) else { return };
     for lattice in Lattice::ALL {

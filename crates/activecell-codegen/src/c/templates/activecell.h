@@ -26,10 +26,10 @@ extern "C" {
 
 /* ---- Cells, maps, moves ---- */
 
-/** A cell: column and row. */
+/** A cell: column and row, in one word. */
 typedef struct {
-    uint16_t x;
-    uint16_t y;
+    uint32_t x : 16;
+    uint32_t y : 16;
 } ac_cell;
 
 /**
