@@ -53,7 +53,8 @@ fn compile(tools: &[PathBuf; 2], map: &Map) -> Simulation {
     let lattice = map.lattice();
     let folder = common::folder(&format!("windowed_{lattice}_{}x{}", map.width(), map.height()));
     write(&folder, &verilog::windowed(map).unwrap());
-    let script = format!("read_verilog rtl/*.v; hierarchy -check -top windowed_{lattice}; proc; flatten; opt");
+    let script =
+        format!("read_verilog rtl/*.v; hierarchy -check -top windowed_{lattice}; proc; flatten; opt");
     let bank = |i: usize| {
         format!(
             "&top.memory_p_fetch_2e_bank__rows_5b_{}_5d__2e_banks_5b_{}_5d__2e_bank_2e_tiles",
@@ -171,7 +172,10 @@ fn the_model_follows_the_published_rule() {
         }
     }
     assert!(outcomes[0] > 50 && outcomes[2] > 50, "{outcomes:?}");
-    println!("arrived {}, enclosed {}, trapped {}: the model's routes are the core's", outcomes[0], outcomes[1], outcomes[2]);
+    println!(
+        "arrived {}, enclosed {}, trapped {}: the model's routes are the core's",
+        outcomes[0], outcomes[1], outcomes[2]
+    );
 }
 
 /// At every position, come to from every neighbouring one: on a map that fills the banks, and on one with a border.
@@ -208,7 +212,8 @@ fn windows_are_the_cells_of_the_map() {
 /// The bench that is delivered passes, and finds a wrong line of its file.
 #[test]
 fn test_benches_pass_and_find_faults() {
-    let Some([iverilog, vvp]) = common::programs("test_benches_pass_and_find_faults", ["iverilog", "vvp"]) else {
+    let Some([iverilog, vvp]) = common::programs("test_benches_pass_and_find_faults", ["iverilog", "vvp"])
+    else {
         return;
     };
     for (i, (width, height)) in [(20, 13), (64, 64), (1, 1), (33, 70)].into_iter().enumerate() {
