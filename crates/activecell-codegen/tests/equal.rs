@@ -187,8 +187,7 @@ fn proves(yosys: &Path, circuit: &Circuit, text: &str, claims: &str) -> bool {
     let folder = common::folder(&format!("claims_{}", circuit.name));
     std::fs::write(folder.join("module.v"), text).unwrap();
     std::fs::write(folder.join("claims.v"), claims).unwrap();
-    let script =
-        "read_verilog module.v claims.v; hierarchy -check -top claims; proc; flatten; opt; sat -prove ok 1";
+    let script = "read_verilog module.v claims.v; hierarchy -check -top claims; proc; flatten; memory; opt; sat -prove ok 1";
     let output = common::command(yosys, &folder).args(["-p", script]).output().unwrap();
     let told = String::from_utf8_lossy(&output.stdout);
     let (holds, fails) = (told.contains("SUCCESS!"), told.contains("FAIL!"));

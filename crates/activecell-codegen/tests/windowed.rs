@@ -3,7 +3,7 @@
 mod common;
 
 use activecell::{Cell, Lattice, Map, Outcome, Rng, Rule};
-use activecell_codegen::model::{Shown, Windowed};
+use activecell_codegen::model::{Shown, Status, Windowed};
 use activecell_codegen::{Banks, SourceFile, verilog};
 use activecell_formats::files::{ReadOptions, read_map};
 use common::cxxrtl::Simulation;
@@ -27,7 +27,7 @@ fn trace(map: &Map, tasks: &[Task]) -> Vec<Clock> {
     let mut clock = |load| {
         clocks.push((load, navigator.shown()));
         navigator.clock(load);
-        navigator.shown().busy
+        navigator.shown().status == Status::Busy
     };
     clock(None);
     for (i, &task) in tasks.iter().enumerate() {
@@ -79,9 +79,7 @@ fn compare(simulation: &Simulation, map: &Map, clocks: &[Clock]) {
         input.push(load.is_some().into());
         input.extend([numbers(start), numbers(target)].concat());
         let go = shown.go.map_or(0, |dir| 1 << dir.0);
-        let flags = [shown.busy, shown.arrived, shown.enclosed, shown.trapped].map(u8::from);
-        let flags = flags.iter().fold(0, |flags, flag| flags << 1 | flag);
-        expected.push([numbers(shown.cell), vec![go, flags]].concat());
+        expected.push([numbers(shown.cell), vec![go, shown.status.outputs()]].concat());
     }
     // The last clock's edge is seen by none.
     let output = simulation.run(&input);
@@ -155,11 +153,11 @@ fn the_model_follows_the_published_rule() {
         let route = map.route(Rule::Published, from, to, 0).unwrap();
         let steps = route.steps();
         assert_eq!(cells[..=steps], *route.cells(), "{lattice} seed {seed}");
-        let ended = [last.arrived, last.enclosed, last.trapped];
+        let ended = [Status::Arrived, Status::Enclosed, Status::Trapped].map(|status| status == last.status);
         let expected = [Outcome::Arrived, Outcome::Enclosed, Outcome::Trapped];
         assert_eq!(ended, expected.map(|outcome| outcome == route.outcome()), "{lattice} seed {seed}");
         let moves = clocks.iter().filter(|(_, shown)| shown.go.is_some()).count();
-        if last.trapped {
+        if last.status == Status::Trapped {
             let cycle = route.cycle();
             assert!(cells[steps..].iter().all(|cell| cycle.contains(cell)));
             // Brent's bound: found before three times the steps until the first repeated cell.
