@@ -77,6 +77,7 @@ module windowed_@LATTICE@ #(
 
     // The next cell.
     wire is_free_to_go = is_seen & ~arrived & ~trapped;
+    wire is_moving     = is_free_to_go & ~is_enclosed;
     assign go = decided & {@LANES@{is_free_to_go}};
 @MOVES@
     wire [X_BITS-1:0] next_x = to_right ? x + 1'b1 : to_left ? x - 1'b1 : x;
@@ -104,7 +105,7 @@ module windowed_@LATTICE@ #(
             to_y    <= target_y;
             visited <= 1;
             mark    <= 1;
-        end else if (|go) begin
+        end else if (is_moving) begin
             visited <= visited + 1'b1;
             if (is_marked) begin
                 mark    <= mark << 1;
