@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test uses some of these")]
 
+pub(crate) mod aig;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
