@@ -4,7 +4,7 @@
 
 mod common;
 
-use activecell::{Cell, Lattice, Map, Rng};
+use activecell::{BitPlane, Cell, Lattice, Map, Rng};
 use activecell_codegen::model::fabric::{Fabric, Inputs, Outputs};
 use activecell_codegen::verilog;
 use common::aig::{Aig, aig};
@@ -145,5 +145,107 @@ fn fixed_fabrics_do_as_the_model_at_every_clock() {
             let map = Map::random(lattice, width, height, 0.3, seed).unwrap();
             compare(&format!("fabric_fixed_{lattice}_{width}_{height}"), &[map], false, 100);
         }
+    }
+}
+
+/// All tasks of 64 maps of the same size, a map a simulation: how many have a way, each of which was shortest.
+fn every_task(gates: &mut Aig, maps: &[Map]) -> usize {
+    let [load, scan, begin] = ["load_map", "scan_in", "begin_task"].map(|name| gates.port(name)[0]);
+    let ends = ["start_x", "start_y", "target_x", "target_y"].map(|name| gates.port(name));
+    let [busy, moving, arrived] = ["busy", "moving", "arrived"].map(|name| gates.port(name)[0]);
+    let where_stopped = [gates.port("at_x"), gates.port("at_y")];
+    let cells: Vec<Cell> = (0..maps[0].height() as i32)
+        .flat_map(|y| (0..maps[0].width() as i32).map(move |x| Cell::new(x, y)))
+        .collect();
+    let simulations =
+        |is: &dyn Fn(&Map) -> bool| maps.iter().rev().fold(0, |word, map| word << 1 | u64::from(is(map)));
+    gates.drive(load, u64::MAX);
+    for &cell in &cells {
+        gates.drive(scan, simulations(&|map| !map.is_free(cell)));
+        gates.clock();
+    }
+    gates.drive(load, 0);
+    let mut tasks = 0;
+    for &target in &cells {
+        let fields: Vec<_> = maps.iter().map(|map| map.wave(target).ok()).collect();
+        for &start in cells.iter().filter(|&&start| start != target) {
+            let steps: Vec<_> =
+                fields.iter().map(|field| field.as_ref().and_then(|field| field.steps(start))).collect();
+            for (port, number) in ends.iter().zip([start.x, start.y, target.x, target.y]) {
+                gates.drive_all(port, number as u32);
+            }
+            gates.drive(begin, u64::MAX);
+            gates.clock();
+            gates.drive(begin, 0);
+            // How long each robot was seen, counted in all simulations at once: bit b of the counts is word b.
+            let mut seen = [0u64; 6];
+            for clock in 0.. {
+                assert!(clock < 64, "livelock: from {start} to {target}");
+                gates.clock();
+                let mut carry = gates.seen(moving);
+                for bit in &mut seen {
+                    (*bit, carry) = (*bit ^ carry, *bit & carry);
+                }
+                if gates.seen(busy) == 0 {
+                    break;
+                }
+            }
+            let arrived = gates.seen(arrived);
+            let is_there = where_stopped.iter().zip([target.x, target.y]).flat_map(|(port, number)| {
+                port.iter().enumerate().map(move |(bit, &place)| (place, number >> bit & 1 == 1))
+            });
+            let there = is_there.fold(u64::MAX, |all, (place, one)| {
+                all & if one { gates.seen(place) } else { !gates.seen(place) }
+            });
+            for (lane, (steps, map)) in steps.into_iter().zip(maps).enumerate() {
+                let cells = seen.iter().rev().fold(0, |count, bit| count << 1 | (bit >> lane & 1) as u32);
+                let done = (arrived & there) >> lane & 1 == 1;
+                assert_eq!(done.then(|| cells - 1), steps, "from {start} to {target} in\n{}", map.to_text());
+                tasks += usize::from(steps.is_some());
+            }
+        }
+    }
+    tasks
+}
+
+/// The map whose obstacles are the bits of a number.
+fn numbered(lattice: Lattice, width: u32, height: u32, number: u32) -> Map {
+    let mut obstacles = BitPlane::new(width.into(), height.into()).unwrap();
+    for bit in 0..width * height {
+        obstacles.set(bit % width, bit / width, number >> bit & 1 == 1);
+    }
+    Map::new(lattice, obstacles)
+}
+
+#[test]
+fn every_task_on_every_small_map_ends_at_its_target_by_a_shortest_way() {
+    for (lattice, width, height, expected) in
+        [(Lattice::Square, 4, 4, Some(2_424_312)), (Lattice::Hex, 4, 3, None)]
+    {
+        let test = format!("fabric_every_task_{lattice}");
+        let map = Map::random(lattice, width, height, 0.0, 0).unwrap();
+        let files = verilog::fabric(&map, true).unwrap();
+        let Some(gates) = aig(&test, &files, "fabric", &[]) else { return };
+        let batches = (1u32 << (width * height)) / 64;
+        let tasks: usize = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..2)
+                .map(|worker| {
+                    let mut gates = gates.clone();
+                    scope.spawn(move || {
+                        let maps = |batch| {
+                            let numbers = 64 * batch..64 * (batch + 1);
+                            numbers.map(|number| numbered(lattice, width, height, number)).collect::<Vec<_>>()
+                        };
+                        let batches = (0..batches).filter(|batch| batch % 2 == worker);
+                        batches.map(|batch| every_task(&mut gates, &maps(batch))).sum::<usize>()
+                    })
+                })
+                .collect();
+            workers.into_iter().map(|worker| worker.join().unwrap()).sum()
+        });
+        println!(
+            "fabric {lattice}: {tasks} tasks on all maps of {width} x {height}, all arrived, all shortest"
+        );
+        assert!(expected.is_none_or(|expected| expected == tasks), "{tasks}");
     }
 }

@@ -26,13 +26,14 @@ pub fn fabric_cell(lattice: Lattice) -> Circuit {
     let came = circuit.wire("is_beside", any(signal(around)), "the wave has come to a neighbour");
     circuit.output(
         "reached_next",
-        Expr::And(vec![
-            super::not(signal(is_obstacle)),
-            Expr::Or(vec![signal(came), signal(is_target)]),
-        ]),
+        Expr::And(vec![super::not(signal(is_obstacle)), Expr::Or(vec![signal(came), signal(is_target)])]),
         "whether the wave has come here",
     );
-    circuit.output("pointer_next", Expr::Lowest(around), "the neighbour from which it comes, if it has not come yet");
+    circuit.output(
+        "pointer_next",
+        Expr::Lowest(around),
+        "the neighbour from which it comes, if it has not come yet",
+    );
     let moved = circuit.wire("is_entered", any(signal(entering)), "the robot moves here");
     circuit.output(
         "active_next",

@@ -91,7 +91,9 @@ impl Fabric {
         let cells: Vec<Cell> = (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))).collect();
         let around = |&cell: &Cell| {
             let number = |dir: u8| map.index(lattice.neighbour(cell, Dir(dir))).unwrap_or(cells.len());
-            std::array::from_fn(|dir| if dir < lattice.degree().into() { number(dir as u8) } else { cells.len() })
+            std::array::from_fn(
+                |dir| if dir < lattice.degree().into() { number(dir as u8) } else { cells.len() },
+            )
         };
         Self {
             lattice,
@@ -119,7 +121,7 @@ impl Fabric {
             self.obstacles.rotate_left(1);
             *self.obstacles.last_mut().expect("a map has cells") = obstacle;
         }
-        self.task = inputs.begin.or(self.task);
+        self.task = if stop { None } else { inputs.begin.or(self.task) };
         self.outputs
     }
 
@@ -236,8 +238,8 @@ fn rule(lattice: Lattice) -> Vec<State> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use activecell::Rng;
     use activecell::DirectionPlanes;
+    use activecell::Rng;
 
     #[test]
     fn pointers_and_ways_are_those_of_the_core() {
@@ -246,7 +248,8 @@ mod tests {
             for seed in 0..60 {
                 let mut rng = Rng::new(seed);
                 let (width, height) = (1 + rng.below(20), 1 + rng.below(20));
-                let map = Map::random(lattice, width, height, f64::from(rng.below(50)) / 100.0, seed).unwrap();
+                let map =
+                    Map::random(lattice, width, height, f64::from(rng.below(50)) / 100.0, seed).unwrap();
                 let mut fabric = Fabric::new(&map);
                 for target in map.free().filter(|_| rng.chance(0.05)).collect::<Vec<_>>() {
                     let planes = map.direction_planes(&[target]).unwrap();
@@ -283,7 +286,9 @@ mod tests {
         for lattice in Lattice::ALL {
             let map = Map::parse(lattice, "..#.\n..#.\n###.").unwrap();
             let mut fabric = Fabric::new(&map);
-            for (from, to) in [((0, 0), (3, 0)), ((0, 0), (2, 0)), ((2, 0), (0, 0)), ((9, 9), (0, 0)), ((0, 0), (9, 9))] {
+            for (from, to) in
+                [((0, 0), (3, 0)), ((0, 0), (2, 0)), ((2, 0), (0, 0)), ((9, 9), (0, 0)), ((0, 0), (9, 9))]
+            {
                 assert_eq!(fabric.run(Cell::new(from.0, from.1), Cell::new(to.0, to.1)), None);
             }
             assert_eq!(fabric.run(Cell::new(1, 1), Cell::new(1, 1)), Some(vec![Cell::new(1, 1)]));

@@ -41,20 +41,26 @@ fn for_lattice(lattice: Lattice, template: &str) -> String {
     let degree = lattice.degree();
     let names: Vec<&str> = lattice.dirs().map(|dir| lattice.dir_name(dir)).collect();
     let (degree, top) = (degree.to_string(), (degree - 1).to_string());
-    let values = [("LATTICE", lattice.name()), ("DEGREE", &degree), ("TOP", &top), ("NAMES", &names.join(", "))];
+    let values =
+        [("LATTICE", lattice.name()), ("DEGREE", &degree), ("TOP", &top), ("NAMES", &names.join(", "))];
     fill(template, &values)
 }
 
 fn top(map: &Map, loadable: bool) -> String {
     let lattice = map.lattice();
     let (ports, storage) = if loadable {
-        (include_str!("templates/fabric_map_ports.v"), include_str!("templates/fabric_map_loaded.v").to_owned())
+        (
+            include_str!("templates/fabric_map_ports.v"),
+            include_str!("templates/fabric_map_loaded.v").to_owned(),
+        )
     } else {
         ("", include_str!("templates/fabric_map_fixed.v").replace("@ROWS@\n", &rows(map)))
     };
     let odd = match lattice {
         Lattice::Square => "",
-        Lattice::Hex => "                localparam ODD = y % 2; // odd rows are shifted right by half a cell\n",
+        Lattice::Hex => {
+            "                localparam ODD = y % 2; // odd rows are shifted right by half a cell\n"
+        }
     };
     let reached = lanes(lattice, |neighbour, _| format!("reached[{neighbour}]"));
     let entering = lanes(lattice, |neighbour, dir| {
@@ -89,7 +95,7 @@ fn lanes(lattice: Lattice, wire: impl Fn(&str, Dir) -> String) -> String {
         .map(|dir| {
             let comma = if dir.0 == 0 { "" } else { "," };
             let wire = wire(&neighbour(lattice, dir), dir) + comma;
-            format!("                        {wire:<40} // {}\n", lattice.dir_name(dir))
+            format!("                    {wire:<40} // {}\n", lattice.dir_name(dir))
         })
         .collect();
     lanes.concat()

@@ -18,6 +18,8 @@ pub(crate) struct Aig {
     names: BTreeMap<String, usize>,
     values: Vec<u64>,
     next: Vec<u64>,
+    /// The gates' values follow from those of the inputs and registers.
+    is_settled: bool,
 }
 
 /// Reads a design; `None`, loudly, without yosys. Wires of the top module are seen beside its outputs.
@@ -65,19 +67,22 @@ impl Aig {
             }
         }
         let values = vec![0; variables as usize + 1];
-        Self { inputs, registers, outputs, gates, names, values, next: Vec::new() }
+        Self { inputs, registers, outputs, gates, names, values, next: Vec::new(), is_settled: false }
     }
 
     /// The places of a port's bits, the lowest first.
     pub(crate) fn port(&self, name: &str) -> Vec<usize> {
-        let bits: Vec<usize> = (0..).map_while(|bit| self.names.get(&format!("{name}[{bit}]")).copied()).collect();
+        let bits: Vec<usize> =
+            (0..).map_while(|bit| self.names.get(&format!("{name}[{bit}]")).copied()).collect();
         let bit = self.names.get(name).copied();
         if bits.is_empty() { bit.into_iter().collect() } else { bits }
     }
 
     /// Drives a bit of an input: a simulation a bit.
     pub(crate) fn drive(&mut self, place: usize, simulations: u64) {
-        self.values[self.inputs[place] as usize] = simulations;
+        let value = &mut self.values[self.inputs[place] as usize];
+        self.is_settled &= *value == simulations;
+        *value = simulations;
     }
 
     /// Drives an input alike in all simulations.
@@ -94,7 +99,9 @@ impl Aig {
 
     /// A clock; what is seen afterwards are the registers' new values and what follows from them.
     pub(crate) fn clock(&mut self) {
-        self.settle();
+        if !self.is_settled {
+            self.settle();
+        }
         let mut next = std::mem::take(&mut self.next);
         next.clear();
         next.extend(self.registers.iter().map(|&[_, from]| self.literal(from)));
@@ -109,6 +116,7 @@ impl Aig {
         for &[gate, a, b] in &self.gates {
             self.values[gate as usize] = literal(&self.values, a) & literal(&self.values, b);
         }
+        self.is_settled = true;
     }
 
     fn literal(&self, number: u32) -> u64 {
