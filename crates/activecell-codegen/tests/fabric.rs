@@ -249,3 +249,37 @@ fn every_task_on_every_small_map_ends_at_its_target_by_a_shortest_way() {
         assert!(expected.is_none_or(|expected| expected == tasks), "{tasks}");
     }
 }
+
+#[test]
+fn the_bench_passes_and_sees_a_wrong_trace() {
+    let Some([iverilog, vvp]) = common::programs("fabric_bench", ["iverilog", "vvp"]) else { return };
+    for lattice in Lattice::ALL {
+        for loadable in [true, false] {
+            let map = Map::random(lattice, 9, 6, 0.25, 5).unwrap();
+            let folder = common::folder(&format!("fabric_bench_{lattice}_{loadable}"));
+            let files = verilog::fabric(&map, loadable).unwrap();
+            for file in &files {
+                let path = folder.join(&file.path);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(path, &file.text).unwrap();
+            }
+            let sources: Vec<&str> =
+                files.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with(".v")).collect();
+            common::run(
+                common::command(&iverilog, &folder)
+                    .args(["-g2005", "-Wall", "-o", "fabric.vvp"])
+                    .args(sources),
+            );
+            let said = common::run(common::command(&vvp, &folder).arg("fabric.vvp"));
+            assert!(said.starts_with("PASS"), "{said}");
+            println!("iverilog, {lattice}, {}: {said}", if loadable { "loaded" } else { "fixed" });
+            // The last line says that the robot arrived.
+            let trace = &files.last().unwrap().text;
+            let wrong = trace.replace("_2_", "_3_");
+            assert_ne!(trace, &wrong);
+            std::fs::write(folder.join("tb/fabric.hex"), wrong).unwrap();
+            let said = common::run(common::command(&vvp, &folder).arg("fabric.vvp"));
+            assert!(said.contains("FAIL"), "{said}");
+        }
+    }
+}
