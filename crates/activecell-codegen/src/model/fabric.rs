@@ -128,7 +128,7 @@ impl Fabric {
     /// The control sees what the cells were before this clock.
     fn clock_control(&mut self, clear: bool, stop: bool) {
         let (seen, now) = (self.active, self.outputs);
-        let at_target = seen.is_some() && seen == self.task.map(|task| task.1);
+        let at_target = now.moving && self.task.is_some_and(|task| task.1 == now.at);
         let stopped = self.warm_up == WARM_UP && !self.front_seen && !now.moving;
         let at = seen.unwrap_or(now.at);
         if clear {

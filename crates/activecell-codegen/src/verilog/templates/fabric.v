@@ -154,20 +154,26 @@ module fabric #(
     end
 
     // The control: a task ends when the active cell is the target, or when the wave has stopped and no cell is active.
-    wire at_target = |(active_column & target_column) & |(active_row & target_row);
-    reg [3:0] warm_up;     // clocks from the beginning until the wave is seen here
+    reg       in_column;   // the robot was in the target's column, two clocks ago
+    reg       in_row;      // the robot was in the target's row, two clocks ago
     reg       front_seen;  // the wave still spread, two clocks ago
+    reg [3:0] warm_up;     // clocks from the beginning until the wave is seen here
+    wire      at_target = in_column & in_row;
     wire      stopped = warm_up[3] & ~front_seen & ~moving;
     always @(posedge clk) begin
         if (clear) begin
             busy <= ~stop;
             warm_up <= 4'b0001;
+            in_column <= 1'b0;
+            in_row <= 1'b0;
             front_seen <= 1'b0;
             moving <= 1'b0;
             arrived <= 1'b0;
             unreachable <= 1'b0;
         end else begin
             warm_up <= {warm_up[3] | warm_up[2], warm_up[1:0], 1'b0};
+            in_column <= |(active_column & target_column);
+            in_row <= |(active_row & target_row);
             front_seen <= |front_row;
             moving <= |active_row;
             arrived <= arrived | at_target;
