@@ -3,7 +3,7 @@
 use super::module;
 use crate::images::{ProgramImage, player_trace};
 use crate::model::player::Segment;
-use crate::template::fill;
+use crate::text::fill;
 use crate::{SourceFile, circuits};
 use activecell::Error;
 use activecell::control::State;

@@ -1,0 +1,5 @@
+//! VHDL-93.
+
+mod circuit;
+
+pub use circuit::{entity, lanes};

@@ -1,0 +1,55 @@
+//! The VHDL is the Verilog: proven for every input of the circuits.
+
+mod common;
+
+use activecell::Lattice;
+use activecell_codegen::logic::Circuit;
+use activecell_codegen::{circuits, verilog, vhdl};
+use std::path::{Path, PathBuf};
+
+/// Every circuit that is written out.
+fn all() -> Vec<Circuit> {
+    let rules =
+        Lattice::ALL.iter().flat_map(|&lattice| [circuits::sector(lattice), circuits::decision(lattice)]);
+    rules.chain([circuits::control(), circuits::player()]).collect()
+}
+
+/// Whether the VHDL, made into gates by GHDL, equals the Verilog for every input.
+fn is_equal([ghdl, yosys]: &[PathBuf; 2], folder: &Path, circuit: &Circuit, vhdl: &str) -> bool {
+    let name = &circuit.name;
+    std::fs::write(folder.join("entity.vhd"), vhdl).expect("the folder can be written");
+    std::fs::write(folder.join("lanes.vhd"), vhdl::lanes().text).expect("the folder can be written");
+    std::fs::write(folder.join("gold.v"), verilog::module(circuit)).expect("the folder can be written");
+    let mut synth = common::command(ghdl, folder);
+    synth.args(["--synth", "--std=93", "--out=verilog", "lanes.vhd", "entity.vhd", "-e", name]);
+    std::fs::write(folder.join("gate.v"), common::run(&mut synth)).expect("the folder can be written");
+    let script = format!(
+        "read_verilog gold.v; rename {name} gold; read_verilog gate.v; rename {name} gate; proc -norom; \
+         miter -equiv -flatten -make_assert gold gate miter; hierarchy -top miter; opt -full; \
+         sat -verify -prove-asserts miter"
+    );
+    let mut prove = common::command(yosys, folder);
+    let output = prove.args(["-q", "-p", &script]).output().expect("a program that was found can be run");
+    let said = String::from_utf8_lossy(&output.stderr) + String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() || said.contains("Called with -verify and proof did fail"), "{said}");
+    output.status.success()
+}
+
+#[test]
+fn vhdl_equals_verilog_for_every_input() {
+    let Some(tools) = common::programs("vhdl_equals_verilog_for_every_input", ["ghdl", "yosys"]) else {
+        return;
+    };
+    let folder = common::folder("vhdl_equal");
+    for circuit in all() {
+        let text = vhdl::entity(&circuit);
+        assert!(text.lines().all(|line| line.len() <= 120), "{text}");
+        assert!(is_equal(&tools, &folder, &circuit, &text), "{}", circuit.name);
+        let bits: u32 = circuit.inputs.iter().map(|port| port.width).sum();
+        println!("{}: VHDL equals Verilog for all 2^{bits} inputs", circuit.name);
+        // The proof would find a fault.
+        let (declared, begun) = text.split_once("\nbegin\n").unwrap();
+        let wrong = format!("{declared}\nbegin\n{}", begun.replacen("not ", "", 1));
+        assert!(!is_equal(&tools, &folder, &circuit, &wrong), "{}", circuit.name);
+    }
+}
