@@ -42,9 +42,9 @@ impl ProgramImage {
         }
         let most = segments.iter().map(|segment| segment.ticks).max().unwrap_or(1);
         let tick_bits = bits(most);
-        let word = |(place, segment): (usize, &Segment)| {
+        let word = |segment: &Segment| {
             let motion = Motion::ALL.iter().position(|&motion| motion == segment.motion).unwrap_or(0) as u64;
-            let about = format!("{place}: {}, {} ticks", segment.motion.name(), segment.ticks);
+            let about = format!("{}, {} ticks", segment.motion.name(), segment.ticks);
             (motion << tick_bits | u64::from(segment.ticks), about)
         };
         let end = (1 << (tick_bits + 2), "the end".into());
@@ -52,7 +52,7 @@ impl ProgramImage {
             segments: segments.len(),
             segment_bits: bits(segments.len() as u32),
             tick_bits,
-            words: segments.iter().enumerate().map(word).chain([end]).collect(),
+            words: segments.iter().map(word).chain([end]).collect(),
         })
     }
 
@@ -64,7 +64,8 @@ impl ProgramImage {
     /// For `$readmemh`.
     pub(crate) fn hex(&self) -> SourceFile {
         let digits = self.word_bits().div_ceil(4) as usize;
-        let lines = self.words.iter().map(|(word, about)| format!("{word:0digits$x} // {about}\n"));
+        let lines = self.words.iter().enumerate();
+        let lines = lines.map(|(place, (word, about))| format!("{word:0digits$x} // {place}: {about}\n"));
         SourceFile::new("rtl/player.hex", lines.collect::<String>())
     }
 }

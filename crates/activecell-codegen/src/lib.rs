@@ -18,6 +18,7 @@ mod images;
 pub mod logic;
 pub mod model;
 mod source;
+mod template;
 mod text;
 pub mod verilog;
 pub mod vhdl;

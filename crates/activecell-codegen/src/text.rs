@@ -2,12 +2,6 @@
 
 use std::collections::BTreeSet;
 
-/// The template with each `@NAME@` replaced by its value.
-pub(crate) fn fill(template: &str, values: &[(&str, &str)]) -> String {
-    let fill_in = |text: String, (name, value): &(&str, &str)| text.replace(&format!("@{name}@"), value);
-    values.iter().fold(template.to_owned(), fill_in)
-}
-
 /// A formula without the outermost brackets.
 pub(crate) fn whole(formula: &str) -> &str {
     formula

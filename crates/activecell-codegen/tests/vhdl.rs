@@ -1,10 +1,11 @@
-//! The VHDL is the Verilog: proven for every input of the circuits.
+//! The VHDL is the Verilog: proven for every input of the circuits; the navigators run their test benches.
 
 mod common;
 
-use activecell::Lattice;
+use activecell::{Lattice, Rng};
 use activecell_codegen::logic::Circuit;
-use activecell_codegen::{circuits, verilog, vhdl};
+use activecell_codegen::model::player::{Motion, Segment};
+use activecell_codegen::{SourceFile, circuits, verilog, vhdl};
 use std::path::{Path, PathBuf};
 
 /// Every circuit that is written out.
@@ -52,4 +53,44 @@ fn vhdl_equals_verilog_for_every_input() {
         let wrong = format!("{declared}\nbegin\n{}", begun.replacen("not ", "", 1));
         assert!(!is_equal(&tools, &folder, &circuit, &wrong), "{}", circuit.name);
     }
+}
+
+/// Whether a test bench passes under GHDL.
+fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool {
+    common::write(folder, files);
+    let sources = files.iter().map(|file| file.path.as_str()).filter(|path| path.contains(".vhd"));
+    let steps: [Vec<&str>; 2] =
+        [["-a", "--std=93"].into_iter().chain(sources).collect(), vec!["--elab-run", "--std=93", bench]];
+    let [_, said] = steps.map(|step| {
+        let output = common::command(ghdl, folder).args(step).output().expect("GHDL was found");
+        [output.stdout, output.stderr].map(|said| String::from_utf8_lossy(&said).into_owned()).concat()
+    });
+    let [passed, failed] = ["PASS ", "FAIL "].map(|word| said.contains(word));
+    assert!(passed != failed, "{said}");
+    assert!(failed || said.lines().count() == 1, "warnings: {said}");
+    passed
+}
+
+#[test]
+fn the_players_test_bench_passes_and_finds_faults() {
+    let Some([ghdl]) = common::programs("the_players_test_bench_passes_and_finds_faults", ["ghdl"]) else {
+        return;
+    };
+    let mut rng = Rng::new(1);
+    let folder = common::folder("vhdl_player");
+    for case in [0, 1, 3, 6, 9] {
+        let longest = 1 + rng.below(300);
+        let segment = |rng: &mut Rng| Segment {
+            motion: Motion::ALL[rng.below(4) as usize],
+            ticks: 1 + rng.below(longest),
+        };
+        let segments: Vec<Segment> = (0..case * case).map(|_| segment(&mut rng)).collect();
+        let mut files = vhdl::player(&segments).unwrap();
+        assert!(passes(&ghdl, &folder, &files, "player_tb"));
+        let trace = files.last_mut().unwrap();
+        let place = trace.text.len() - 5; // q3 to q0 of the last line
+        trace.text.replace_range(place..=place, "2");
+        assert!(!passes(&ghdl, &folder, &files, "player_tb"));
+    }
+    println!("5 programs: the test bench in VHDL passes, and fails if the last line is wrong");
 }
