@@ -1,6 +1,6 @@
 //! The control unit with its state, and the program player around it.
 
-use super::{entity, lanes};
+use super::{bench_lines, entity, lanes};
 use crate::images::{ProgramImage, player_trace};
 use crate::model::player::Segment;
 use crate::template::fill;
@@ -50,7 +50,7 @@ pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
         SourceFile::new("rtl/player_program.vhd", program(&image)),
         SourceFile::new("rtl/player.vhd", include_str!("templates/player.vhd")),
         SourceFile::new("rtl/player_top.vhd", include_str!("templates/player_top.vhd")),
-        SourceFile::new("tb/hex_lines.vhd", include_str!("templates/hex_lines.vhd")),
+        bench_lines(),
         SourceFile::new("tb/player_tb.vhd", include_str!("templates/player_tb.vhd")),
         trace,
     ]);
