@@ -116,3 +116,22 @@ fn the_windowed_navigators_test_bench_passes_and_finds_faults() {
     }
     println!("4 maps of each lattice: the test bench in VHDL passes, and fails if the last line is wrong");
 }
+
+#[test]
+fn the_fabrics_test_bench_passes_and_finds_faults() {
+    let test = "the_fabrics_test_bench_passes_and_finds_faults";
+    let Some([ghdl]) = common::programs(test, ["ghdl"]) else { return };
+    let folder = common::folder("vhdl_fabric");
+    for lattice in Lattice::ALL {
+        for (width, height, loadable) in [(1, 1, true), (2, 1, false), (7, 5, true), (9, 10, false)] {
+            let map = Map::random(lattice, width, height, 0.2, u64::from(width)).unwrap();
+            let mut files = vhdl::fabric(&map, loadable).unwrap();
+            assert!(passes(&ghdl, &folder, &files, "fabric_tb"), "{lattice} {width} x {height}");
+            let trace = files.last_mut().unwrap();
+            let place = trace.text.len() - 2; // busy to unreachable of the last line
+            trace.text.replace_range(place..=place, "f");
+            assert!(!passes(&ghdl, &folder, &files, "fabric_tb"), "{lattice} {width} x {height}");
+        }
+    }
+    println!("4 fabrics of each lattice: the test bench in VHDL passes, and fails if the last line is wrong");
+}

@@ -1,10 +1,12 @@
 //! VHDL-93.
 
 mod circuit;
+mod fabric;
 mod player;
 mod windowed;
 
 pub use circuit::{entity, lanes};
+pub use fabric::fabric;
 pub use player::{control_unit, player};
 pub use windowed::windowed;
 
