@@ -1,9 +1,11 @@
-//! Memory images and traces of the program player, which Verilog and VHDL share.
+//! Memory images and traces that Verilog and VHDL share.
 
 use crate::SourceFile;
+use crate::model::fabric_trace;
 use crate::model::player::{Motion, OBSTACLES, Segment};
 use crate::model::player_trace::{Stretch, trace};
-use activecell::Error;
+use crate::verilog::bits_below;
+use activecell::{Cell, Error, Map};
 
 /// Segments that a player's numbers of 16 bits can count.
 const SEGMENTS_MAX: usize = u16::MAX as usize;
@@ -42,9 +44,9 @@ impl ProgramImage {
         }
         let most = segments.iter().map(|segment| segment.ticks).max().unwrap_or(1);
         let tick_bits = bits(most);
-        let word = |(place, segment): (usize, &Segment)| {
+        let word = |segment: &Segment| {
             let motion = Motion::ALL.iter().position(|&motion| motion == segment.motion).unwrap_or(0) as u64;
-            let about = format!("{place}: {}, {} ticks", segment.motion.name(), segment.ticks);
+            let about = format!("{}, {} ticks", segment.motion.name(), segment.ticks);
             (motion << tick_bits | u64::from(segment.ticks), about)
         };
         let end = (1 << (tick_bits + 2), "the end".into());
@@ -52,7 +54,7 @@ impl ProgramImage {
             segments: segments.len(),
             segment_bits: bits(segments.len() as u32),
             tick_bits,
-            words: segments.iter().enumerate().map(word).chain([end]).collect(),
+            words: segments.iter().map(word).chain([end]).collect(),
         })
     }
 
@@ -64,7 +66,8 @@ impl ProgramImage {
     /// For `$readmemh`.
     pub(crate) fn hex(&self) -> SourceFile {
         let digits = self.word_bits().div_ceil(4) as usize;
-        let lines = self.words.iter().map(|(word, about)| format!("{word:0digits$x} // {about}\n"));
+        let lines = self.words.iter().enumerate();
+        let lines = lines.map(|(place, (word, about))| format!("{word:0digits$x} // {place}: {about}\n"));
         SourceFile::new("rtl/player.hex", lines.collect::<String>())
     }
 }
@@ -90,4 +93,25 @@ fn line(stretch: &Stretch) -> String {
         u8::from(senses.go) << 5 | u8::from(senses.tick) << 4 | (senses.obstacles.0 & OBSTACLES.0) >> 2;
     let (clocks, segment, done) = (stretch.clocks, stretch.segment, u8::from(stretch.done));
     format!("{clocks:08x}_{segment:04x}_{done:x}_{q:x}_{told:02x}\n")
+}
+
+/// What the fabric does with random tasks, a clock a line, as `fabric_tb` reads it: reset, begin, load and the cell loaded;
+/// start and target; after the clock where the robot is, and busy, moving, arrived, unreachable.
+pub(crate) fn fabric_trace(map: &Map, loadable: bool) -> SourceFile {
+    let [x_digits, y_digits] = [map.width(), map.height()].map(|size| bits_below(size).div_ceil(4) as usize);
+    let cell = |cell: Cell| format!("{:0x_digits$x}_{:0y_digits$x}", cell.x, cell.y);
+    let nibble = |flags: [bool; 4]| flags.iter().fold(0, |sum, &flag| sum << 1 | u8::from(flag));
+    let lines = fabric_trace::trace(map, loadable, 1).into_iter().map(|(told, shown)| {
+        let (start, target) = told.begin.unwrap_or_default();
+        let load = [told.load.is_some(), told.load.unwrap_or(false)];
+        format!(
+            "{:x}_{}_{}_{}_{:x}\n",
+            nibble([told.reset, told.begin.is_some(), load[0], load[1]]),
+            cell(start),
+            cell(target),
+            cell(shown.at),
+            nibble([shown.busy, shown.moving, shown.arrived, shown.unreachable])
+        )
+    });
+    SourceFile::new("tb/fabric.hex", lines.collect::<Vec<_>>().concat())
 }

@@ -19,7 +19,9 @@ pub mod logic;
 pub mod model;
 mod source;
 mod template;
+mod text;
 pub mod verilog;
+pub mod vhdl;
 
 pub use banks::{Banks, MOST_STORED};
 pub use source::SourceFile;

@@ -1,7 +1,7 @@
 //! Circuits as modules.
 
 use crate::logic::{Circuit, Expr, Port, Signal, Wire};
-use std::collections::BTreeSet;
+use crate::text::{Cases, whole};
 
 /// A circuit as a module without state.
 pub fn module(circuit: &Circuit) -> String {
@@ -45,41 +45,23 @@ fn lines(formula: &str) -> String {
     if formula.len() < 90 { formula.into() } else { formula.replace(") | (", ")\n        | (") }
 }
 
-/// A table as a function, which becomes gates: entries that are alike share a line, the most frequent is the default.
+/// A table as a function, which becomes gates.
 /// The function, and its call.
 fn lookup(circuit: &Circuit, wire: &Wire, table: &[u32], width: u32, index: Signal) -> (String, String) {
     let (name, index, digits) = (&wire.port.name, circuit.port(index), width as usize);
-    let places = |entry: u32| (0..table.len()).filter(move |&place| table[place] == entry);
-    let entries: BTreeSet<u32> = table.iter().copied().collect();
-    let default = entries.iter().copied().max_by_key(|&entry| places(entry).count()).unwrap_or(0);
+    let Cases { entries, default } = Cases::of(table);
     let mut text = format!(
         "    function [{}:0] {name}_of(input [{}:0] place);\n        case (place)\n",
         width - 1,
         index.width - 1,
     );
-    for entry in entries.into_iter().filter(|&entry| entry != default) {
-        let places: Vec<String> = places(entry).map(|place| format!("{}'d{place}", index.width)).collect();
+    for (entry, places) in entries {
+        let places: Vec<String> = places.iter().map(|place| format!("{}'d{place}", index.width)).collect();
         text += &format!("            {}: {name}_of = {width}'b{entry:0digits$b};\n", places.join(", "));
     }
     text += &format!("            default: {name}_of = {width}'b{default:0digits$b};\n");
     text += "        endcase\n    endfunction\n";
     (text, format!("{name}_of({})", index.name))
-}
-
-/// Without the outermost brackets.
-fn whole(text: &str) -> &str {
-    text.strip_prefix('(')
-        .and_then(|text| text.strip_suffix(')'))
-        .filter(|text| balanced(text))
-        .unwrap_or(text)
-}
-
-fn balanced(text: &str) -> bool {
-    let mut depth = 0;
-    text.chars().all(|c| {
-        depth += i32::from(c == '(') - i32::from(c == ')');
-        depth >= 0
-    })
 }
 
 fn formula(circuit: &Circuit, expr: &Expr) -> String {

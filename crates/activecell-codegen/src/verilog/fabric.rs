@@ -26,10 +26,7 @@ pub const MAX_FABRIC_CELLS: u64 = 4096;
 /// # Ok::<(), activecell::Error>(())
 /// ```
 pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
-    let (width, height) = (map.width().into(), map.height().into());
-    if width * height > MAX_FABRIC_CELLS {
-        return Err(Error::MapTooLarge { width, height, limit: MAX_FABRIC_CELLS });
-    }
+    checked(map)?;
     let lattice = map.lattice();
     let step = circuits::fabric_cell(lattice);
     let mut files = vec![
@@ -42,6 +39,15 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
     ];
     files.extend(bench(map, loadable));
     Ok(files)
+}
+
+/// Refuses maps that are too large for a fabric.
+pub(crate) fn checked(map: &Map) -> Result<(), Error> {
+    let (width, height) = (map.width().into(), map.height().into());
+    if width * height > MAX_FABRIC_CELLS {
+        return Err(Error::MapTooLarge { width, height, limit: MAX_FABRIC_CELLS });
+    }
+    Ok(())
 }
 
 /// How many bits hold the numbers below `count`.
@@ -115,7 +121,7 @@ fn lanes(lattice: Lattice, wire: impl Fn(&str, Dir) -> String) -> String {
 }
 
 /// The number of a neighbour, from the core's offsets in even and odd rows.
-fn neighbour(lattice: Lattice, dir: Dir) -> String {
+pub(crate) fn neighbour(lattice: Lattice, dir: Dir) -> String {
     let [even, odd] = [0, 1].map(|y| lattice.neighbour(Cell::new(0, y), dir));
     let shift = if odd.x == even.x { "" } else { " + ODD" };
     let offset = |step: i32| match step {

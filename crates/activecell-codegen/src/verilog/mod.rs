@@ -8,5 +8,6 @@ mod windowed;
 
 pub use circuit::module;
 pub use fabric::{MAX_FABRIC_CELLS, fabric};
+pub(crate) use fabric::{bits_below, checked, neighbour};
 pub use player::{control_unit, player};
 pub use windowed::windowed;

@@ -34,7 +34,7 @@ pub fn control_unit() -> Vec<SourceFile> {
 /// use activecell_codegen::{model::player::{Motion, Segment}, verilog};
 /// let files = verilog::player(&[Segment { motion: Motion::Forward, ticks: 200 }])?;
 /// let image = files.iter().find(|file| file.path == "rtl/player.hex").unwrap();
-/// assert_eq!(image.text, "0c8 // 0: forward, 200 ticks\n400 // the end\n");
+/// assert_eq!(image.text, "0c8 // 0: forward, 200 ticks\n400 // 1: the end\n");
 /// # Ok::<(), activecell::Error>(())
 /// ```
 pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {

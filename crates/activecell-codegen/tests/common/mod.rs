@@ -6,6 +6,7 @@ pub(crate) mod aig;
 pub(crate) mod cxxrtl;
 pub(crate) mod formal;
 
+use activecell_codegen::SourceFile;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -45,6 +46,15 @@ pub(crate) fn folder(test: &str) -> PathBuf {
     let _ = std::fs::remove_dir_all(&folder);
     std::fs::create_dir_all(&folder).expect("the target folder can be written");
     folder
+}
+
+/// Writes generated files below a folder.
+pub(crate) fn write(folder: &Path, files: &[SourceFile]) {
+    for file in files {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
+        std::fs::write(path, &file.text).expect("the file can be written");
+    }
 }
 
 /// A command to be run in a folder.

@@ -1,0 +1,105 @@
+//! The fabric: a small automaton for every cell of the map.
+
+use super::{bench_lines, entity, lanes};
+use crate::images::fabric_trace;
+use crate::template::fill;
+use crate::verilog::{bits_below, checked, neighbour};
+use crate::{SourceFile, circuits};
+use activecell::{Dir, Error, Lattice, Map};
+
+/// The fabric of [`crate::verilog::fabric`], with the same ports and generics, and a test bench that compares it with its
+/// model on random tasks.
+///
+/// The files are in the order in which they can be analysed.
+///
+/// # Errors
+/// [`Error::MapTooLarge`] above [`crate::verilog::MAX_FABRIC_CELLS`].
+///
+/// ```
+/// use activecell::{Lattice, Map};
+/// let files = activecell_codegen::vhdl::fabric(&Map::random(Lattice::Hex, 8, 6, 0.2, 1)?, true)?;
+/// assert!(files.iter().any(|file| file.path == "rtl/fabric_cell_hex.vhd"));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
+    checked(map)?;
+    let lattice = map.lattice();
+    let step = circuits::fabric_cell(lattice);
+    let values = values(map, loadable);
+    let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    let filled =
+        |path: String, template: &str| SourceFile::new(path, fill(&fill(template, &values), &values));
+    Ok(vec![
+        lanes(),
+        SourceFile::new(format!("rtl/{}.vhd", step.name), entity(&step)),
+        filled(format!("rtl/fabric_cell_{lattice}.vhd"), include_str!("templates/fabric_cell.vhd")),
+        filled("rtl/fabric.vhd".into(), include_str!("templates/fabric.vhd")),
+        bench_lines(),
+        filled("tb/fabric_tb.vhd".into(), include_str!("templates/fabric_tb.vhd")),
+        fabric_trace(map, loadable),
+    ])
+}
+
+fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
+    let lattice = map.lattice();
+    let names: Vec<&str> = lattice.dirs().map(|dir| lattice.dir_name(dir)).collect();
+    let [column_bits, row_bits] = [map.width(), map.height()].map(bits_below);
+    let odd = match lattice {
+        Lattice::Square => "",
+        Lattice::Hex => {
+            "            constant ODD  : natural := y mod 2; -- odd rows are shifted right by half a cell\n"
+        }
+    };
+    let around = [
+        around("reached_around", lattice, |neighbour, _| format!("reached({neighbour})")),
+        around("entering", lattice, |neighbour, dir| {
+            format!("leaving({}*{neighbour} + {})", lattice.degree(), lattice.opposite(dir).0)
+        }),
+    ];
+    let choose = |yes: &str, no: &str| String::from(if loadable { yes } else { no });
+    vec![
+        ("MAP_PORTS", choose(include_str!("templates/fabric_map_ports.vhd"), "")),
+        ("MAP_CONNECTIONS", choose("load_map => told(1), scan_in => told(0), scan_out => open, ", "")),
+        ("LOADING", choose(include_str!("templates/fabric_loading.vhd"), "")),
+        ("STOP", choose("reset or load_map", "reset")),
+        ("MAP", if loadable { LOADED.into() } else { fixed(map) }),
+        ("ODD", odd.into()),
+        ("AROUND", around.concat()),
+        ("LATTICE", lattice.name().into()),
+        ("DEGREE", lattice.degree().to_string()),
+        ("TOP", (lattice.degree() - 1).to_string()),
+        ("NAMES", names.join(", ")),
+        ("WIDTH", map.width().to_string()),
+        ("HEIGHT", map.height().to_string()),
+        ("COLUMN_BITS", column_bits.to_string()),
+        ("ROW_BITS", row_bits.to_string()),
+        ("COLUMN_DIGITS", column_bits.div_ceil(4).to_string()),
+        ("ROW_DIGITS", row_bits.div_ceil(4).to_string()),
+    ]
+}
+
+const LOADED: &str = "    -- The map: a chain of registers through all cells, 1 for an obstacle.
+    signal obstacles : std_logic_vector(0 to CELLS - 1) := (others => '0');
+";
+
+/// The map as rows of bits that read as it lies.
+fn fixed(map: &Map) -> String {
+    let bit = |x, y| if map.obstacles().get(x, y) { '1' } else { '0' };
+    let row = |y| format!("        \"{}\"", (0..map.width()).map(|x| bit(x, y)).collect::<String>());
+    let rows: Vec<String> = (0..map.height()).map(row).collect();
+    format!(
+        "    -- The map: 1 for an obstacle. Cells that are obstacles need no hardware.\n    \
+         constant OBSTACLES : std_logic_vector(0 to CELLS - 1) :=\n{};\n",
+        rows.join(" &\n")
+    )
+}
+
+/// A bit from each neighbour, the last lane first.
+fn around(name: &str, lattice: Lattice, bit: impl Fn(&str, Dir) -> String) -> String {
+    let lanes = lattice.dirs().rev().map(|dir| {
+        let end = if dir.0 == 0 { ";" } else { " &" };
+        let bit = bit(&neighbour(lattice, dir), dir) + end;
+        format!("                {bit:<42} -- {}\n", lattice.dir_name(dir))
+    });
+    format!("            {name} <=\n{}", lanes.collect::<Vec<_>>().concat())
+}

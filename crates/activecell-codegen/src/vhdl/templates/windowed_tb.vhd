@@ -1,0 +1,77 @@
+-- Test bench of windowed_@LATTICE@. Each line of tb/windowed.hex is a clock: the inputs, and what the model in Rust shows.
+-- Reports PASS, or FAIL with the first difference. Run it in the folder above rtl and tb.
+library ieee;
+use ieee.std_logic_1164.all;
+use ieee.numeric_std.all;
+use std.textio.all;
+use work.hex_lines.all;
+
+entity windowed_tb is
+end entity windowed_tb;
+
+architecture test of windowed_tb is
+    constant X_BITS   : positive := @X_BITS@;
+    constant Y_BITS   : positive := @Y_BITS@;
+    constant X_DIGITS : positive := @X_DIGITS@; -- hexadecimal digits of a column's number in the file
+    constant Y_DIGITS : positive := @Y_DIGITS@; -- and of a row's
+
+    -- Where the fields of a line begin.
+    constant Y_AT        : positive := 12;
+    constant X_AT        : positive := Y_AT + 4*Y_DIGITS;
+    constant TARGET_Y_AT : positive := X_AT + 4*X_DIGITS;
+    constant TARGET_X_AT : positive := TARGET_Y_AT + 4*Y_DIGITS;
+    constant START_Y_AT  : positive := TARGET_X_AT + 4*X_DIGITS;
+    constant START_X_AT  : positive := START_Y_AT + 4*Y_DIGITS;
+    constant LOAD_AT     : positive := START_X_AT + 4*X_DIGITS;
+
+    signal clk      : std_logic := '0';
+    signal reset    : std_logic := '1';
+    signal load     : std_logic := '0';
+    signal start_x  : std_logic_vector(X_BITS - 1 downto 0) := (others => '0');
+    signal start_y  : std_logic_vector(Y_BITS - 1 downto 0) := (others => '0');
+    signal target_x : std_logic_vector(X_BITS - 1 downto 0) := (others => '0');
+    signal target_y : std_logic_vector(Y_BITS - 1 downto 0) := (others => '0');
+    signal x        : std_logic_vector(X_BITS - 1 downto 0);
+    signal y        : std_logic_vector(Y_BITS - 1 downto 0);
+    signal go       : std_logic_vector(@TOP@ downto 0);
+    signal flags    : std_logic_vector(3 downto 0); -- busy, arrived, enclosed, trapped
+    signal ended    : boolean := false;
+begin
+    dut : entity work.windowed_@LATTICE@
+        port map (
+            clk => clk, reset => reset, load => load,
+            start_x => start_x, start_y => start_y, target_x => target_x, target_y => target_y,
+            x => x, y => y, go => go,
+            busy => flags(3), arrived => flags(2), enclosed => flags(1), trapped => flags(0)
+        );
+
+    clk <= not clk after 5 ns when not ended else '0';
+
+    check : process
+        file trace : text open read_mode is "tb/windowed.hex";
+        variable fields  : std_logic_vector(LOAD_AT + 3 downto 0);
+        variable clocks  : natural := 0;
+    begin
+        wait until falling_edge(clk);
+        reset <= '0';
+        while not endfile(trace) loop
+            read_hex(trace, fields);
+            load     <= fields(LOAD_AT);
+            start_x  <= fields(START_X_AT + X_BITS - 1 downto START_X_AT);
+            start_y  <= fields(START_Y_AT + Y_BITS - 1 downto START_Y_AT);
+            target_x <= fields(TARGET_X_AT + X_BITS - 1 downto TARGET_X_AT);
+            target_y <= fields(TARGET_Y_AT + Y_BITS - 1 downto TARGET_Y_AT);
+            wait for 1 ns;
+            assert x = fields(X_AT + X_BITS - 1 downto X_AT) and y = fields(Y_AT + Y_BITS - 1 downto Y_AT)
+                    and go = fields(@TOP@ + 4 downto 4) and flags = fields(3 downto 0)
+                report "FAIL windowed_@LATTICE@: line " & integer'image(clocks + 1) & ": at ("
+                    & integer'image(to_integer(unsigned(x))) & "," & integer'image(to_integer(unsigned(y))) & ")"
+                severity failure;
+            clocks := clocks + 1;
+            wait until falling_edge(clk);
+        end loop;
+        ended <= true;
+        report "PASS windowed_@LATTICE@: " & integer'image(clocks) & " clocks as in Rust";
+        wait;
+    end process check;
+end architecture test;

@@ -1,0 +1,137 @@
+//! The VHDL is the Verilog: proven for every input of the circuits; the navigators run their test benches.
+
+mod common;
+
+use activecell::{Lattice, Map, Rng};
+use activecell_codegen::logic::Circuit;
+use activecell_codegen::model::player::{Motion, Segment};
+use activecell_codegen::{SourceFile, circuits, verilog, vhdl};
+use std::path::{Path, PathBuf};
+
+/// Every circuit that is written out.
+fn all() -> Vec<Circuit> {
+    let rules =
+        Lattice::ALL.iter().flat_map(|&lattice| [circuits::sector(lattice), circuits::decision(lattice)]);
+    rules.chain([circuits::control(), circuits::player()]).collect()
+}
+
+/// Whether the VHDL, made into gates by GHDL, equals the Verilog for every input.
+fn is_equal([ghdl, yosys]: &[PathBuf; 2], folder: &Path, circuit: &Circuit, vhdl: &str) -> bool {
+    let name = &circuit.name;
+    std::fs::write(folder.join("entity.vhd"), vhdl).expect("the folder can be written");
+    std::fs::write(folder.join("lanes.vhd"), vhdl::lanes().text).expect("the folder can be written");
+    std::fs::write(folder.join("gold.v"), verilog::module(circuit)).expect("the folder can be written");
+    let mut synth = common::command(ghdl, folder);
+    synth.args(["--synth", "--std=93", "--out=verilog", "lanes.vhd", "entity.vhd", "-e", name]);
+    std::fs::write(folder.join("gate.v"), common::run(&mut synth)).expect("the folder can be written");
+    let script = format!(
+        "read_verilog gold.v; rename {name} gold; read_verilog gate.v; rename {name} gate; proc -norom; \
+         miter -equiv -flatten -make_assert gold gate miter; hierarchy -top miter; opt -full; \
+         sat -verify -prove-asserts miter"
+    );
+    let mut prove = common::command(yosys, folder);
+    let output = prove.args(["-q", "-p", &script]).output().expect("a program that was found can be run");
+    let said = String::from_utf8_lossy(&output.stderr) + String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() || said.contains("Called with -verify and proof did fail"), "{said}");
+    output.status.success()
+}
+
+#[test]
+fn vhdl_equals_verilog_for_every_input() {
+    let Some(tools) = common::programs("vhdl_equals_verilog_for_every_input", ["ghdl", "yosys"]) else {
+        return;
+    };
+    let folder = common::folder("vhdl_equal");
+    for circuit in all() {
+        let text = vhdl::entity(&circuit);
+        assert!(text.lines().all(|line| line.len() <= 120), "{text}");
+        assert!(is_equal(&tools, &folder, &circuit, &text), "{}", circuit.name);
+        let bits: u32 = circuit.inputs.iter().map(|port| port.width).sum();
+        println!("{}: VHDL equals Verilog for all 2^{bits} inputs", circuit.name);
+        // The proof would find a fault.
+        let (declared, begun) = text.split_once("\nbegin\n").unwrap();
+        let wrong = format!("{declared}\nbegin\n{}", begun.replacen("not ", "", 1));
+        assert!(!is_equal(&tools, &folder, &circuit, &wrong), "{}", circuit.name);
+    }
+}
+
+/// Whether a test bench passes under GHDL.
+fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool {
+    common::write(folder, files);
+    let sources = files.iter().map(|file| file.path.as_str()).filter(|path| path.contains(".vhd"));
+    let steps: [Vec<&str>; 2] = [
+        ["-a", "--std=93"].into_iter().chain(sources).collect(),
+        vec!["--elab-run", "--std=93", bench, "--ieee-asserts=disable-at-0"],
+    ];
+    let [_, said] = steps.map(|step| {
+        let output = common::command(ghdl, folder).args(step).output().expect("GHDL was found");
+        [output.stdout, output.stderr].map(|said| String::from_utf8_lossy(&said).into_owned()).concat()
+    });
+    let [passed, failed] = ["PASS ", "FAIL "].map(|word| said.contains(word));
+    assert!(passed != failed, "{said}");
+    assert!(failed || said.lines().count() == 1, "warnings: {said}");
+    passed
+}
+
+#[test]
+fn the_players_test_bench_passes_and_finds_faults() {
+    let Some([ghdl]) = common::programs("the_players_test_bench_passes_and_finds_faults", ["ghdl"]) else {
+        return;
+    };
+    let mut rng = Rng::new(1);
+    let folder = common::folder("vhdl_player");
+    for case in [0, 1, 3, 6, 9] {
+        let longest = 1 + rng.below(300);
+        let segment = |rng: &mut Rng| Segment {
+            motion: Motion::ALL[rng.below(4) as usize],
+            ticks: 1 + rng.below(longest),
+        };
+        let segments: Vec<Segment> = (0..case * case).map(|_| segment(&mut rng)).collect();
+        let mut files = vhdl::player(&segments).unwrap();
+        assert!(passes(&ghdl, &folder, &files, "player_tb"));
+        let trace = files.last_mut().unwrap();
+        let place = trace.text.len() - 5; // q3 to q0 of the last line
+        trace.text.replace_range(place..=place, "2");
+        assert!(!passes(&ghdl, &folder, &files, "player_tb"));
+    }
+    println!("5 programs: the test bench in VHDL passes, and fails if the last line is wrong");
+}
+
+#[test]
+fn the_windowed_navigators_test_bench_passes_and_finds_faults() {
+    let test = "the_windowed_navigators_test_bench_passes_and_finds_faults";
+    let Some([ghdl]) = common::programs(test, ["ghdl"]) else { return };
+    let folder = common::folder("vhdl_windowed");
+    for lattice in Lattice::ALL {
+        // Maps that fill the banks, and maps with room around.
+        for (width, height, seed) in [(1, 1, 1), (16, 15, 2), (30, 17, 3), (64, 40, 4)] {
+            let map = Map::random(lattice, width, height, 0.15, seed).unwrap();
+            let mut files = vhdl::windowed(&map).unwrap();
+            assert!(passes(&ghdl, &folder, &files, "windowed_tb"), "{lattice} {width} x {height}");
+            let trace = files.last_mut().unwrap();
+            let place = trace.text.len() - 4; // the step of the last line, which is none
+            trace.text.replace_range(place..=place, "1");
+            assert!(!passes(&ghdl, &folder, &files, "windowed_tb"), "{lattice} {width} x {height}");
+        }
+    }
+    println!("4 maps of each lattice: the test bench in VHDL passes, and fails if the last line is wrong");
+}
+
+#[test]
+fn the_fabrics_test_bench_passes_and_finds_faults() {
+    let test = "the_fabrics_test_bench_passes_and_finds_faults";
+    let Some([ghdl]) = common::programs(test, ["ghdl"]) else { return };
+    let folder = common::folder("vhdl_fabric");
+    for lattice in Lattice::ALL {
+        for (width, height, loadable) in [(1, 1, true), (2, 1, false), (7, 5, true), (9, 10, false)] {
+            let map = Map::random(lattice, width, height, 0.2, u64::from(width)).unwrap();
+            let mut files = vhdl::fabric(&map, loadable).unwrap();
+            assert!(passes(&ghdl, &folder, &files, "fabric_tb"), "{lattice} {width} x {height}");
+            let trace = files.last_mut().unwrap();
+            let place = trace.text.len() - 2; // busy to unreachable of the last line
+            trace.text.replace_range(place..=place, "f");
+            assert!(!passes(&ghdl, &folder, &files, "fabric_tb"), "{lattice} {width} x {height}");
+        }
+    }
+    println!("4 fabrics of each lattice: the test bench in VHDL passes, and fails if the last line is wrong");
+}
