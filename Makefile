@@ -5,6 +5,7 @@
 # make docs    the pictures of the documents, drawn anew
 # make bench   every method beside its peers, 20 minutes (QUICK=1: a few); writes docs/benchmarks.md
 # make bench-fleet  groups of robots for 30 s an instance, 15 minutes (QUICK=1: 1); writes docs/benchmarks-fleet.md
+# make hardware  LUTs, clocks, code sizes and instructions of what is generated, 15 minutes (QUICK=1: 2); writes docs/hardware.md
 # make count   instruction counts of the hot loops against those kept (UPDATE=1 keeps the new ones)
 # make clean   remove everything that was built
 
@@ -12,7 +13,7 @@ ACTIVECELL := $(or $(CARGO_TARGET_DIR),target)/release/activecell
 OFFICE := maps/office.yaml --cell 0.5 --radius 0.2 --from 1.2m,1.5m --to 19m,11m
 DEBIAN := iverilog ghdl gcc-arm-none-eabi qemu-system-arm cppcheck
 
-.PHONY: demo test tools deps docs bench bench-fleet count clean
+.PHONY: demo test tools deps docs bench bench-fleet hardware count clean
 
 demo: $(ACTIVECELL)
 	@mkdir -p out
@@ -83,6 +84,13 @@ bench:
 
 bench-fleet:
 	@QUICK=$(QUICK) bench/run.sh fleet
+
+hardware: tools .venv/place-and-route-done
+	@QUICK=$(QUICK) .venv/bin/python hardware/measure.py
+
+.venv/place-and-route-done: hardware/requirements-place-and-route.txt | .venv/tools-done
+	@echo "installing place and route into .venv (400 MB) …"
+	@.venv/bin/pip install --quiet --disable-pip-version-check -r $< && touch $@
 
 # Built for any machine, so that the counts do not depend on this one.
 count:

@@ -4,11 +4,10 @@ mod args;
 mod commands;
 mod terminal;
 
-use clap::Parser;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = args::Cli::parse();
+    let cli = args::Cli::read();
     // Without a handler an interrupt only leaves a temporary file behind; that is no reason not to start.
     let _ = ctrlc::set_handler(|| {
         activecell_formats::files::abandon_writes();

@@ -23,6 +23,12 @@ pub(crate) struct ProgramImage {
 }
 
 impl ProgramImage {
+    /// Bits of the memory.
+    pub(crate) const fn bits(&self) -> u64 {
+        // The end and the motion stand above the ticks.
+        self.words.len() as u64 * (3 + self.tick_bits as u64)
+    }
+
     /// The program that these segments are.
     ///
     /// # Errors

@@ -12,6 +12,7 @@
 //! ```
 
 mod banks;
+mod bundle;
 pub mod c;
 pub mod circuits;
 mod images;
@@ -24,4 +25,5 @@ pub mod verilog;
 pub mod vhdl;
 
 pub use banks::{Banks, MOST_STORED};
+pub use bundle::{Bundle, Language, Order, Size, generate, long_way};
 pub use source::SourceFile;

@@ -3,6 +3,7 @@
 mod calibrate;
 mod delays;
 mod fleet;
+mod generate;
 mod ground;
 mod group;
 mod lifelong;
@@ -11,9 +12,10 @@ mod simulate;
 
 use activecell::{Lattice, Rule};
 pub(crate) use calibrate::CalibrateArgs;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 pub(crate) use delays::DelayArgs;
 pub(crate) use fleet::{CheckArgs, FleetArgs};
+pub(crate) use generate::GenerateArgs;
 pub(crate) use ground::GroundArgs;
 pub(crate) use group::{GroupArgs, SizesArg};
 pub(crate) use lifelong::{AssignmentArg, GenerateArg, LifelongArgs, MotionArg};
@@ -46,6 +48,16 @@ pub(crate) struct Cli {
     pub(crate) verbose: bool,
 }
 
+impl Cli {
+    /// The arguments that the command was given; ends it with help or a message otherwise.
+    pub(crate) fn read() -> Self {
+        // Of all commands with a map only this one can do without.
+        let command = Self::command()
+            .mut_subcommand("generate", |command| command.mut_arg("path", |map| map.required(false)));
+        Self::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
+    }
+}
+
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Route(RouteArgs),
@@ -56,6 +68,7 @@ pub(crate) enum Command {
     Info(InfoArgs),
     Convert(ConvertArgs),
     Embed(EmbedArgs),
+    Generate(GenerateArgs),
     Calibrate(CalibrateArgs),
     Table(TableArgs),
     /// Print a completion script for a shell

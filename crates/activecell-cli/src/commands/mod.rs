@@ -7,6 +7,7 @@ mod control;
 mod convert;
 mod embed;
 mod fleet;
+mod generate;
 mod group;
 mod info;
 mod lifelong;
@@ -44,6 +45,7 @@ pub(crate) fn run(command: Command, terminal: &Terminal) -> anyhow::Result<Done>
         Command::Info(args) => info::run(&args, terminal)?,
         Command::Convert(args) => convert::run(&args, terminal)?,
         Command::Embed(args) => embed::run(&args, terminal)?,
+        Command::Generate(args) => generate::run(&args, terminal)?,
         Command::Calibrate(args) => calibrate::run(&args, terminal)?,
         Command::Table(args) => match args.table {
             TableKind::Rule { lattice, format } => Terminal::result(&table::rule(lattice.into(), format)?)?,

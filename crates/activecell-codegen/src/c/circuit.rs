@@ -73,6 +73,18 @@ fn collect(expr: &Expr, signals: &mut BTreeSet<Signal>) {
     }
 }
 
+/// A circuit as a header of its own: the function of [`function`], inline.
+pub fn header(circuit: &Circuit) -> String {
+    let guard = format!("AC_{}_H", circuit.name.to_uppercase());
+    let name = format!("ac_{}(", circuit.name);
+    let body = function(circuit);
+    // The types and tables stay as they are; the function is the last that begins with `static`.
+    let at = body.rfind("\nstatic ").map_or(0, |at| at + 1);
+    let body = format!("{}{}", &body[..at], body[at..].replacen("static ", "static inline ", 1));
+    debug_assert!(body.contains(&name));
+    format!("#ifndef {guard}\n#define {guard}\n\n#include <stdint.h>\n\n{body}\n#endif\n")
+}
+
 fn structure(name: &str, outputs: &[&Wire]) -> String {
     let mut text = comment(&format!("What {name} says."));
     text += "typedef struct {\n";

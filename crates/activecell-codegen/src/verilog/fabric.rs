@@ -51,7 +51,7 @@ pub(crate) fn checked(map: &Map) -> Result<(), Error> {
 }
 
 /// How many bits hold the numbers below `count`.
-pub(super) const fn bits_below(count: u32) -> u32 {
+pub(crate) const fn bits_below(count: u32) -> u32 {
     if count < 2 { 1 } else { (count - 1).ilog2() + 1 }
 }
 

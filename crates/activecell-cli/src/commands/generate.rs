@@ -1,0 +1,95 @@
+//! `activecell generate`: the navigator as firmware or hardware.
+
+use super::{counted, load};
+use crate::args::GenerateArgs;
+use crate::terminal::Terminal;
+use activecell_codegen::{Bundle, Language, Order, Size, generate, long_way};
+use activecell_formats::files;
+use anyhow::Context;
+use serde::Serialize;
+use std::fs;
+
+#[derive(Serialize)]
+struct Report<'a> {
+    language: &'a str,
+    folder: String,
+    files: Vec<&'a str>,
+    sizes: Vec<SizeReport>,
+    notes: Vec<&'a str>,
+}
+
+#[derive(Serialize)]
+struct SizeReport {
+    part: &'static str,
+    what: &'static str,
+    value: u64,
+    estimated: bool,
+}
+
+pub(crate) fn run(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<()> {
+    let bundle = made(args, terminal)?;
+    // All is there before the first byte is written.
+    for file in &bundle.files {
+        let path = args.output.join(&file.path);
+        let folder = path.parent().unwrap_or(&args.output);
+        fs::create_dir_all(folder).with_context(|| format!("{}: cannot be made", folder.display()))?;
+        files::write_atomically(&path, file.text.as_bytes())?;
+    }
+    for note in &bundle.notes {
+        terminal.note(&format!("note: {note}"));
+    }
+    if args.json {
+        let report = report(args, &bundle);
+        return Terminal::result(&(serde_json::to_string(&report)? + "\n"));
+    }
+    Terminal::result(&text(args, &bundle))
+}
+
+fn made(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<Bundle> {
+    let language = args.language.into();
+    let Some(map_args) = &args.map else { return Ok(generate(language, None)?) };
+    let robot = args.robot.as_deref().map(load::robot).transpose()?;
+    let map = load::map(map_args, robot.as_ref(), terminal)?.map;
+    let _working = terminal.working("generating");
+    let (from, to) = match (&args.from, &args.to) {
+        (Some(from), Some(to)) => (from.on(&map)?, to.on(&map)?),
+        _ => long_way(&map)?,
+    };
+    let robot = robot.unwrap_or_default();
+    let order = Order { map: &map, from, to, robot: &robot, fixed_map: args.fixed_map };
+    Ok(generate(language, Some(&order))?)
+}
+
+fn report<'a>(args: &GenerateArgs, bundle: &'a Bundle) -> Report<'a> {
+    let size = |size: &Size| SizeReport {
+        part: size.part,
+        what: size.what,
+        value: size.value,
+        estimated: size.estimated,
+    };
+    Report {
+        language: Language::from(args.language).name(),
+        folder: args.output.display().to_string(),
+        files: bundle.files.iter().map(|file| file.path.as_str()).collect(),
+        sizes: bundle.sizes.iter().map(size).collect(),
+        notes: bundle.notes.iter().map(String::as_str).collect(),
+    }
+}
+
+/// The result for people.
+fn text(args: &GenerateArgs, bundle: &Bundle) -> String {
+    let files = counted(bundle.files.len() as u64, "file");
+    let folder = args.output.display();
+    let mut text = format!("{}: {files} in {folder}\n", Language::from(args.language).name());
+    let mut before = "";
+    for size in &bundle.sizes {
+        let part = if size.part == before { "" } else { size.part };
+        let about = if size.estimated { "about " } else { "" };
+        text += &format!("  {part:20}{about}{} {}\n", size.value, size.what);
+        before = size.part;
+    }
+    if bundle.files.iter().any(|file| file.path == "Makefile") {
+        text += &format!("next: make -C {folder} sim; {folder}/README.md tells the rest\n");
+    }
+    text
+}
