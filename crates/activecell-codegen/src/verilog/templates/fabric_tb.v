@@ -1,11 +1,12 @@
-// A bench that checks the fabric by itself: at every clock the inputs of a line of tb/fabric.hex, and what must
-// be seen after the clock, as the model in Rust says. Run it in the folder above rtl and tb.
+// A bench that checks the fabric by itself: at every clock the inputs of a line of tb/fabric.hex, and what
+// must be seen after the clock, as the model in Rust says. Run it in the folder above rtl and tb.
 `timescale 1ns / 1ps
 module fabric_tb;
     localparam CLOCKS = @CLOCKS@;
 
     // A line, from the left, a digit: reset, load_map, scan_in, begin_task; three digits each: start_x,
-    // start_y, target_x, target_y; a digit: busy, moving, arrived, unreachable; three digits each: at_x, at_y.
+    // start_y, target_x, target_y; a digit: busy, moving, arrived, unreachable; three digits each: at_x,
+    // at_y.
     reg [79:0] trace [0:CLOCKS-1];
     reg [79:0] line;
 
