@@ -132,7 +132,7 @@ fn random_maps(lattice: Lattice, width: u32, height: u32, count: u64) -> Vec<Map
 #[test]
 fn loaded_fabrics_do_as_the_model_at_every_clock() {
     for lattice in Lattice::ALL {
-        for (width, height) in [(8, 8), (11, 3), (1, 6)] {
+        for (width, height) in [(8, 8), (11, 3), (1, 6), (1, 1)] {
             let maps = random_maps(lattice, width, height, 100);
             compare(&format!("fabric_loaded_{lattice}_{width}_{height}"), &maps, true, 4);
         }
