@@ -8,6 +8,7 @@ use activecell::{BitPlane, Cell, Lattice, Map, Rng};
 use activecell_codegen::model::fabric::{Fabric, Inputs, Outputs};
 use activecell_codegen::verilog;
 use common::aig::{Aig, aig};
+use std::path::PathBuf;
 
 const INPUTS: [&str; 8] =
     ["reset", "load_map", "scan_in", "begin_task", "start_x", "start_y", "target_x", "target_y"];
@@ -131,8 +132,8 @@ fn random_maps(lattice: Lattice, width: u32, height: u32, count: u64) -> Vec<Map
 #[test]
 fn loaded_fabrics_do_as_the_model_at_every_clock() {
     for lattice in Lattice::ALL {
-        for (width, height) in [(8, 8), (11, 3), (1, 6)] {
-            let maps = random_maps(lattice, width, height, 150);
+        for (width, height) in [(8, 8), (11, 3), (1, 6), (1, 1)] {
+            let maps = random_maps(lattice, width, height, 100);
             compare(&format!("fabric_loaded_{lattice}_{width}_{height}"), &maps, true, 4);
         }
     }
@@ -144,6 +145,71 @@ fn fixed_fabrics_do_as_the_model_at_every_clock() {
         for (width, height, seed) in [(8, 8, 2), (7, 12, 3)] {
             let map = Map::random(lattice, width, height, 0.3, seed).unwrap();
             compare(&format!("fabric_fixed_{lattice}_{width}_{height}"), &[map], false, 100);
+        }
+    }
+}
+
+/// Windows of real maps (the `.map` files of MovingAI), at places that depend on the seed alone.
+fn real_windows(lattice: Lattice, size: u32) -> Vec<Map> {
+    let root =
+        std::env::var_os("ACTIVECELL_DATA").map_or(common::root().join("../shared/data"), PathBuf::from);
+    let Ok(entries) = std::fs::read_dir(root.join("movingai")) else {
+        println!("SKIPPED: {} has no folder movingai; no fabric was tried on real maps", root.display());
+        return Vec::new();
+    };
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    files.retain(|file| file.extension().is_some_and(|ending| ending == "map"));
+    files.sort();
+    let mut rng = Rng::new(11);
+    let mut windows = Vec::new();
+    for file in files {
+        let text = std::fs::read_to_string(file).unwrap();
+        let rows: Vec<&[u8]> = text.lines().skip(4).map(str::as_bytes).collect();
+        for _ in 0..3 {
+            let (left, top) = (rng.below(rows[0].len() as u32 - size), rng.below(rows.len() as u32 - size));
+            let mut obstacles = BitPlane::new(size.into(), size.into()).unwrap();
+            for (x, y) in (0..size).flat_map(|y| (0..size).map(move |x| (x, y))) {
+                obstacles.set(x, y, !b".GS".contains(&rows[(top + y) as usize][(left + x) as usize]));
+            }
+            windows.push(Map::new(lattice, obstacles));
+        }
+    }
+    windows
+}
+
+#[test]
+fn fabrics_do_as_the_model_on_real_maps() {
+    for lattice in Lattice::ALL {
+        let maps = real_windows(lattice, 12);
+        if !maps.is_empty() {
+            compare(&format!("fabric_real_{lattice}"), &maps, true, 3);
+        }
+    }
+}
+
+#[test]
+fn maps_that_do_not_fit_are_refused() {
+    let map = |width, height| Map::random(Lattice::Hex, width, height, 0.3, 1).unwrap();
+    let error = verilog::fabric(&map(65, 64), true).unwrap_err().to_string();
+    assert!(error.contains("65 x 64 cells is too large: at most 4096"), "{error}");
+    assert!(verilog::fabric(&map(4096, 1), false).is_ok());
+}
+
+#[test]
+fn what_is_generated_can_be_read() {
+    for lattice in Lattice::ALL {
+        for loadable in [true, false] {
+            let map = Map::random(lattice, 20, 12, 0.3, 1).unwrap();
+            for file in &verilog::fabric(&map, loadable).unwrap()[1..] {
+                let is_place = |rest: &str| rest.starts_with(|c: char| c.is_ascii_uppercase());
+                assert!(
+                    !file.text.split('@').skip(1).any(is_place),
+                    "{}: a place is not filled in",
+                    file.path
+                );
+                let long = file.text.lines().find(|line| line.len() > 110);
+                assert_eq!(long, None, "{}", file.path);
+            }
         }
     }
 }
@@ -264,7 +330,7 @@ fn the_bench_passes_and_sees_a_wrong_trace() {
                 std::fs::write(path, &file.text).unwrap();
             }
             let sources: Vec<&str> =
-                files.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with(".v")).collect();
+                files.iter().map(|file| file.path.as_str()).filter(|path| !path.ends_with("hex")).collect();
             common::run(
                 common::command(&iverilog, &folder)
                     .args(["-g2005", "-Wall", "-o", "fabric.vvp"])

@@ -1,7 +1,7 @@
 //! The fabric, clock by clock.
 //!
-//! Every cell does what the circuit [`fabric_cell`] says; the control around them is written here once more, which is
-//! what the generated hardware is compared with.
+//! Every cell does what the circuit [`fabric_cell`] says; the control around them is written here once more: this is what
+//! the generated hardware is compared with.
 
 use crate::circuits::fabric_cell;
 use activecell::{Cell, Dir, Lattice, Map};
@@ -19,6 +19,7 @@ pub struct Inputs {
 
 /// What the fabric shows after a clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "they are wires")]
 pub struct Outputs {
     /// A task is being done.
     pub busy: bool,
@@ -119,7 +120,9 @@ impl Fabric {
         self.clock_cells(clear);
         if let Some(obstacle) = inputs.load {
             self.obstacles.rotate_left(1);
-            *self.obstacles.last_mut().expect("a map has cells") = obstacle;
+            if let Some(last) = self.obstacles.last_mut() {
+                *last = obstacle;
+            }
         }
         self.task = if stop { None } else { inputs.begin.or(self.task) };
         self.outputs
@@ -279,6 +282,23 @@ mod tests {
         }
         println!("fabric: {pointers} pointers, {arrivals} ways and {refusals} refusals as the core's");
         assert!(arrivals > 2000 && refusals > 200, "{arrivals} {refusals}");
+    }
+
+    #[test]
+    fn a_way_of_n_steps_takes_2_n_and_6_clocks() {
+        let map = Map::parse(Lattice::Square, "....\n###.\n....\n.###\n....").unwrap();
+        for target in map.free() {
+            let mut fabric = Fabric::new(&map);
+            let steps = map.wave(target).unwrap().steps(Cell::new(0, 0)).unwrap();
+            let mut outputs =
+                fabric.clock(Inputs { begin: Some((Cell::new(0, 0), target)), ..Inputs::default() });
+            let mut clocks = 1;
+            while outputs.busy {
+                outputs = fabric.clock(Inputs::default());
+                clocks += 1;
+            }
+            assert_eq!(clocks, 2 * steps + 6);
+        }
     }
 
     #[test]

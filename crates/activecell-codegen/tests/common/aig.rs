@@ -26,15 +26,15 @@ pub(crate) struct Aig {
 pub(crate) fn aig(test: &str, files: &[SourceFile], top: &str, wires: &[&str]) -> Option<Aig> {
     let [program] = programs(test, ["yosys"])?;
     let folder = folder(test);
-    let verilog: Vec<&SourceFile> =
-        files.iter().filter(|file| file.path.starts_with("rtl/") && file.path.ends_with(".v")).collect();
+    let verilog: Vec<&SourceFile> = files.iter().filter(|file| file.path.starts_with("rtl/")).collect();
     for file in &verilog {
         let path = folder.join(&file.path);
         std::fs::create_dir_all(path.parent().expect("a file lies in the folder")).expect("it can be made");
         std::fs::write(path, &file.text).expect("the target folder can be written");
     }
     let sources: Vec<&str> = verilog.iter().map(|file| file.path.as_str()).collect();
-    let expose: String = wires.iter().map(|name| format!("expose {top}/w:{name}; ")).collect();
+    let expose =
+        wires.iter().fold(String::new(), |script, name| script + &format!("expose {top}/w:{name}; "));
     let script = format!(
         "read_verilog {}; hierarchy -check -top {top}; proc; flatten; {expose}opt; techmap; opt; \
          dfflegalize -cell $_DFF_P_ x; setundef -zero; aigmap; opt_clean; write_aiger -ascii -symbols design.aag",

@@ -1,10 +1,12 @@
-// The fabric: the map as cells of hardware, each a small automaton (@LATTICE@ lattice, @WIDTH@ by @HEIGHT@ cells).
+// The fabric: the map as cells of hardware, each a small automaton (@LATTICE@, @WIDTH@ by @HEIGHT@ cells).
 //
-// A wave spreads from the target, a cell a clock. Each free cell keeps the direction from which the wave came first.
-// When the wave comes to the start, the start becomes the active cell; the active bit then follows the pointers,
-// a move a clock, along a shortest way. At the target, which has no pointer, it ends.
+// A wave spreads from the target, a cell a clock. Each free cell keeps the direction from which the wave came
+// first: its pointer. When the wave comes to the start, the start becomes the active cell; the active bit
+// then follows the pointers, a move a clock, along a shortest way. At the target, which has no pointer, it
+// ends.
 //
 // Cells are counted in columns from the left and rows from the top, from 0.
+// A task whose way has n steps takes 2 n + 6 clocks, the one in which it begins among them.
 module fabric #(
     parameter WIDTH = @WIDTH@,         // columns
     parameter HEIGHT = @HEIGHT@,        // rows
@@ -23,7 +25,7 @@ module fabric #(
     output reg  [COLUMN_BITS-1:0] at_x,        // where the robot was, two clocks ago; where it stopped
     output reg  [ROW_BITS-1:0]    at_y,
     output reg                    arrived,     // the task is done: the robot is at the target
-    output reg                    unreachable  // the task is done: the wave stopped before it came to the start
+    output reg                    unreachable  // the task is done: no way leads to the target
 );
     localparam CELLS = WIDTH * HEIGHT;
 
@@ -120,8 +122,8 @@ module fabric #(
         end
     endgenerate
 
-    // Where the active cell is, and whether the wave still spreads: by rows and columns, then altogether, each in a
-    // clock, so that the fabric's speed is that of its cells.
+    // Where the active cell is, and whether the wave still spreads: by rows and columns, then altogether,
+    // each in a clock, so that the fabric's speed is that of its cells.
     reg [WIDTH-1:0]  active_column;
     reg [HEIGHT-1:0] active_row;
     reg [HEIGHT-1:0] front_row;
@@ -153,7 +155,8 @@ module fabric #(
             active_y = active_y | (active_row[i] ? i[ROW_BITS-1:0] : 0);
     end
 
-    // The control: a task ends when the active cell is the target, or when the wave has stopped and no cell is active.
+    // The control: a task ends when the active cell is the target, or when the wave has stopped and no cell
+    // is active.
     reg       in_column;   // the robot was in the target's column, two clocks ago
     reg       in_row;      // the robot was in the target's row, two clocks ago
     reg       front_seen;  // the wave still spread, two clocks ago
@@ -188,7 +191,8 @@ module fabric #(
     end
 
 `ifdef FORMAL
-    // What is proven by induction for every map, whatever is loaded or begun at any clock, after a first clock of reset.
+    // What is proven by induction for every map, whatever is loaded or begun at any clock, after a first
+    // clock of reset.
     always @*
         if (formal_begun) begin
             assert ((active & (active - 1)) == 0); // at most one cell is active

@@ -29,8 +29,8 @@ module fabric_cell_@LATTICE@ (
         .active_next(active_next)
     );
 
-    // What a cell keeps, inverted where this saves lookup tables: `waiting` enables the clock of `closed`, and a lane of `closed` can
-    // be a neighbour's `waiting` as it is.
+    // What a cell keeps, inverted where this saves lookup tables: `waiting` enables the clock of `closed`,
+    // and a lane of `closed` can be a neighbour's `waiting` as it is.
     reg       waiting;     // the wave has not come yet
     reg [@TOP@:0] closed;      // the neighbours to which the pointer does not point
     reg       was_waiting; // waiting, a clock before
@@ -50,8 +50,8 @@ module fabric_cell_@LATTICE@ (
             was_waiting <= waiting;
             active <= active_next;
         end
-        // The pointer follows the neighbours until the wave is here, then it stays. It needs no clearing: before a wave
-        // nothing is reached, so it falls to none by itself.
+        // The pointer follows the neighbours until the wave is here, then it stays. It needs no clearing:
+        // before a wave nothing is reached, so it falls to none by itself.
         if (waiting)
             closed <= ~pointer_next;
     end

@@ -1,11 +1,12 @@
-// A bench that checks the fabric by itself: at every clock the inputs of a line of tb/fabric.hex, and what must be seen
-// after the clock, as the model in Rust says. Run it in the folder above rtl and tb.
+// A bench that checks the fabric by itself: at every clock the inputs of a line of tb/fabric.hex, and what
+// must be seen after the clock, as the model in Rust says. Run it in the folder above rtl and tb.
 `timescale 1ns / 1ps
 module fabric_tb;
     localparam CLOCKS = @CLOCKS@;
 
-    // A line, from the left, a digit: reset, load_map, scan_in, begin_task; three digits each: start_x, start_y,
-    // target_x, target_y; a digit: busy, moving, arrived, unreachable; three digits each: at_x, at_y.
+    // A line, from the left, a digit: reset, load_map, scan_in, begin_task; three digits each: start_x,
+    // start_y, target_x, target_y; a digit: busy, moving, arrived, unreachable; three digits each: at_x,
+    // at_y.
     reg [79:0] trace [0:CLOCKS-1];
     reg [79:0] line;
 
@@ -41,11 +42,14 @@ module fabric_tb;
             #1;
             // The place counts only while the robot moves, and where it arrived.
             if ({busy, moving, arrived, unreachable} !== line[27:24]
-                || ((moving || arrived) && (at_x !== line[12 +: @COLUMN_BITS@] || at_y !== line[0 +: @ROW_BITS@]))) begin
+                || ((moving || arrived)
+                    && (at_x !== line[12 +: @COLUMN_BITS@] || at_y !== line[0 +: @ROW_BITS@]))) begin
                 errors = errors + 1;
                 if (errors <= 10)
-                    $display("clock %0d: busy %b, moving %b, arrived %b, unreachable %b, at (%0d,%0d); expected %b, (%0d,%0d)",
-                        clock, busy, moving, arrived, unreachable, at_x, at_y, line[27:24], line[23:12], line[11:0]);
+                    $display(
+                        "clock %0d: busy, moving, arrived, unreachable %b at (%0d,%0d), not %b at (%0d,%0d)",
+                        clock, {busy, moving, arrived, unreachable}, at_x, at_y,
+                        line[27:24], line[23:12], line[11:0]);
             end
             if (arrived && !was_arrived)
                 arrivals = arrivals + 1;
