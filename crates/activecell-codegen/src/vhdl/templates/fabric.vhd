@@ -21,7 +21,7 @@ entity fabric is
     port (
         clk         : in  std_logic;
         reset       : in  std_logic;                                  -- ends any task
-@MAP_PORTS@        begin_task  : in  std_logic;                                  -- takes the four inputs below and begins, also within a task
+@MAP_PORTS@        begin_task  : in  std_logic;                                  -- takes the inputs below and begins, also within a task
         start_x     : in  std_logic_vector(COLUMN_BITS - 1 downto 0);
         start_y     : in  std_logic_vector(ROW_BITS - 1 downto 0);
         target_x    : in  std_logic_vector(COLUMN_BITS - 1 downto 0);

@@ -53,13 +53,13 @@ begin
     bank_rows : for j in 0 to 3 generate
         signal last_y : unsigned(Y_BITS - 1 downto 0);
     begin
-        last_y <= unsigned(y) + (5 - 2*j) when j < 3 else unsigned(y) - 1;
+        last_y <= unsigned(y) + (5 - 2*j) mod 2**Y_BITS;
 
         banks : for i in 0 to 3 generate
             signal last_x  : unsigned(X_BITS - 1 downto 0);
             signal address : std_logic_vector(X_BITS + Y_BITS - 7 downto 0);
         begin
-            last_x  <= unsigned(x) + (5 - 2*i) when i < 3 else unsigned(x) - 1;
+            last_x  <= unsigned(x) + (5 - 2*i) mod 2**X_BITS;
             address <= std_logic_vector(last_y(Y_BITS - 1 downto 3)) & std_logic_vector(last_x(X_BITS - 1 downto 3));
 
             bank : entity work.map_bank
