@@ -121,14 +121,14 @@ impl Fabric {
             self.obstacles.rotate_left(1);
             *self.obstacles.last_mut().expect("a map has cells") = obstacle;
         }
-        self.task = inputs.begin.or(self.task);
+        self.task = if stop { None } else { inputs.begin.or(self.task) };
         self.outputs
     }
 
     /// The control sees what the cells were before this clock.
     fn clock_control(&mut self, clear: bool, stop: bool) {
         let (seen, now) = (self.active, self.outputs);
-        let at_target = seen.is_some() && seen == self.task.map(|task| task.1);
+        let at_target = now.moving && self.task.is_some_and(|task| task.1 == now.at);
         let stopped = self.warm_up == WARM_UP && !self.front_seen && !now.moving;
         let at = seen.unwrap_or(now.at);
         if clear {

@@ -1,5 +1,6 @@
 //! The fabric: a small automaton for every cell of the map.
 
+use super::fabric_bench::bench;
 use super::module;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
@@ -8,24 +9,36 @@ use activecell::{Cell, Dir, Error, Lattice, Map};
 /// The most cells that a fabric may have; larger maps do not fit into the FPGAs that this is for.
 pub const MAX_FABRIC_CELLS: u64 = 4096;
 
-/// The fabric of a map's lattice and size: the cell's rule, the cell, and all of them with their control.
+/// The fabric of a map's lattice and size: the cell's rule, the cell, all of them with their control, and a test bench.
 ///
 /// Loadable, its map comes through a chain of registers; else it is the map given, and obstacles take no hardware.
 ///
 /// # Errors
 /// [`Error::MapTooLarge`] above [`MAX_FABRIC_CELLS`]: such maps are for the windowed navigator.
+///
+/// ```
+/// use activecell::{Lattice, Map};
+/// use activecell_codegen::verilog;
+/// let files = verilog::fabric(&Map::parse(Lattice::Hex, "..#\n...")?, false)?;
+/// let paths: Vec<&str> = files.iter().map(|file| file.path.as_str()).collect();
+/// assert_eq!(paths[..3], ["rtl/fabric_step_hex.v", "rtl/fabric_cell_hex.v", "rtl/fabric.v"]);
+/// assert!(files[2].text.contains("3'b001,\n"), "the map as it lies");
+/// # Ok::<(), activecell::Error>(())
+/// ```
 pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
     checked(map)?;
     let lattice = map.lattice();
     let step = circuits::fabric_cell(lattice);
-    Ok(vec![
+    let mut files = vec![
         SourceFile::new(format!("rtl/{}.v", step.name), module(&step)),
         SourceFile::new(
             format!("rtl/fabric_cell_{lattice}.v"),
             for_lattice(lattice, include_str!("templates/fabric_cell.v")),
         ),
         SourceFile::new("rtl/fabric.v", top(map, loadable)),
-    ])
+    ];
+    files.extend(bench(map, loadable));
+    Ok(files)
 }
 
 /// Refuses maps that are too large for a fabric.
@@ -101,7 +114,7 @@ fn lanes(lattice: Lattice, wire: impl Fn(&str, Dir) -> String) -> String {
         .map(|dir| {
             let comma = if dir.0 == 0 { "" } else { "," };
             let wire = wire(&neighbour(lattice, dir), dir) + comma;
-            format!("                        {wire:<40} // {}\n", lattice.dir_name(dir))
+            format!("                    {wire:<40} // {}\n", lattice.dir_name(dir))
         })
         .collect();
     lanes.concat()

@@ -2,6 +2,7 @@
 
 mod circuit;
 mod fabric;
+mod fabric_bench;
 mod player;
 mod windowed;
 

@@ -2,6 +2,7 @@
 
 #![allow(dead_code, reason = "each test uses some of these")]
 
+pub(crate) mod aig;
 pub(crate) mod cxxrtl;
 pub(crate) mod formal;
 

@@ -51,7 +51,12 @@ module fabric #(
     reg [HEIGHT-1:0] target_row;
     integer i;
     always @(posedge clk)
-        if (begin_task) begin
+        if (stop) begin
+            start_column <= 0;
+            start_row <= 0;
+            target_column <= 0;
+            target_row <= 0;
+        end else if (begin_task) begin
             for (i = 0; i < WIDTH; i = i + 1) begin
                 start_column[i] <= start_x == i;
                 target_column[i] <= target_x == i;
@@ -62,29 +67,55 @@ module fabric #(
             end
         end
 
+`ifdef FORMAL
+    reg formal_begun = 1'b0; // the first clock is over
+    always @(posedge clk)
+        formal_begun <= 1'b1;
+`endif
+
     genvar x, y;
     generate
         for (y = 0; y < HEIGHT; y = y + 1) begin : row
             for (x = 0; x < WIDTH; x = x + 1) begin : column
                 localparam HERE = y * WIDTH + x;
-@ODD@                fabric_cell_@LATTICE@ cell_here (
+@ODD@                wire here_is_target = target_column[x] & target_row[y];
+                wire here_is_start = start_column[x] & start_row[y];
+                wire [@TOP@:0] reached_around = {
+@REACHED@
+                };
+                wire [@TOP@:0] entering = {
+@ENTERING@
+                };
+                fabric_cell_@LATTICE@ cell_here (
                     .clk(clk),
                     .clear(clear),
                     .is_obstacle(obstacles[HERE]),
-                    .is_target(target_column[x] & target_row[y]),
-                    .is_start(start_column[x] & start_row[y]),
-                    .reached_around({
-@REACHED@
-                    }),
-                    .entering({
-@ENTERING@
-                    }),
+                    .is_target(here_is_target),
+                    .is_start(here_is_start),
+                    .reached_around(reached_around),
+                    .entering(entering),
                     .reached(reached[HERE]),
                     .is_front(is_front[HERE]),
                     .pointer(pointer[@DEGREE@*HERE +: @DEGREE@]),
                     .active(active[HERE]),
                     .leaving(leaving[@DEGREE@*HERE +: @DEGREE@])
                 );
+
+`ifdef FORMAL
+                wire [@TOP@:0] points = pointer[@DEGREE@*HERE +: @DEGREE@];
+                always @*
+                    if (formal_begun) begin
+                        // The wave never enters an obstacle, the robot goes where the wave has been.
+                        assert (!(reached[HERE] && obstacles[HERE]));
+                        assert (!active[HERE] || reached[HERE]);
+                        // A pointer leads to a cell that the wave has reached; only the target has none.
+                        assert (!reached[HERE] || (points & ~reached_around) == 0);
+                        assert (!reached[HERE] || (points & (points - 1)) == 0);
+                        assert (!reached[HERE] || points != 0 || here_is_target);
+                        // The start makes the active bit once: afterwards it is reached for good.
+                        assert (!here_is_start || active == 0 || (reached[HERE] && !is_front[HERE]));
+                    end
+`endif
             end
         end
     endgenerate
@@ -123,20 +154,26 @@ module fabric #(
     end
 
     // The control: a task ends when the active cell is the target, or when the wave has stopped and no cell is active.
-    wire at_target = |(active_column & target_column) & |(active_row & target_row);
-    reg [3:0] warm_up;     // clocks from the beginning until the wave is seen here
+    reg       in_column;   // the robot was in the target's column, two clocks ago
+    reg       in_row;      // the robot was in the target's row, two clocks ago
     reg       front_seen;  // the wave still spread, two clocks ago
+    reg [3:0] warm_up;     // clocks from the beginning until the wave is seen here
+    wire      at_target = in_column & in_row;
     wire      stopped = warm_up[3] & ~front_seen & ~moving;
     always @(posedge clk) begin
         if (clear) begin
             busy <= ~stop;
             warm_up <= 4'b0001;
+            in_column <= 1'b0;
+            in_row <= 1'b0;
             front_seen <= 1'b0;
             moving <= 1'b0;
             arrived <= 1'b0;
             unreachable <= 1'b0;
         end else begin
             warm_up <= {warm_up[3] | warm_up[2], warm_up[1:0], 1'b0};
+            in_column <= |(active_column & target_column);
+            in_row <= |(active_row & target_row);
             front_seen <= |front_row;
             moving <= |active_row;
             arrived <= arrived | at_target;
@@ -149,4 +186,15 @@ module fabric #(
             at_y <= active_y;
         end
     end
+
+`ifdef FORMAL
+    // What is proven by induction for every map, whatever is loaded or begun at any clock, after a first clock of reset.
+    always @*
+        if (formal_begun) begin
+            assert ((active & (active - 1)) == 0); // at most one cell is active
+            assert ((start_column & (start_column - 1)) == 0);
+            assert ((start_row & (start_row - 1)) == 0);
+        end else
+            assume (reset);
+`endif
 endmodule

@@ -76,6 +76,8 @@ architecture rtl of fabric is
     signal is_moving      : std_logic := '0';
     signal is_arrived     : std_logic := '0';
     signal is_unreachable : std_logic := '0';
+    signal in_column      : std_logic := '0';                       -- the robot was in the target's column, two clocks ago
+    signal in_row         : std_logic := '0';                       -- the robot was in the target's row, two clocks ago
     signal at_target      : std_logic;
     signal stopped        : std_logic;
 
@@ -122,7 +124,12 @@ begin
     take_task : process (clk)
     begin
         if rising_edge(clk) then
-            if begin_task = '1' then
+            if stop = '1' then
+                start_column  <= (others => '0');
+                start_row     <= (others => '0');
+                target_column <= (others => '0');
+                target_row    <= (others => '0');
+            elsif begin_task = '1' then
                 for x in 0 to WIDTH - 1 loop
                     start_column(x)  <= flag(unsigned(start_x) = x);
                     target_column(x) <= flag(unsigned(target_x) = x);
@@ -152,7 +159,7 @@ begin
         end if;
     end process sum_up;
 
-    at_target <= or_reduce(active_column and target_column) and or_reduce(active_row and target_row);
+    at_target <= in_column and in_row;
     stopped   <= warm_up(3) and not front_seen and not is_moving;
 
     control : process (clk)
@@ -163,12 +170,16 @@ begin
                 warm_up        <= "0001";
                 front_seen     <= '0';
                 is_moving      <= '0';
+                in_column      <= '0';
+                in_row         <= '0';
                 is_arrived     <= '0';
                 is_unreachable <= '0';
             else
                 warm_up        <= (warm_up(3) or warm_up(2)) & warm_up(1 downto 0) & '0';
                 front_seen     <= or_reduce(front_row);
                 is_moving      <= or_reduce(active_row);
+                in_column      <= or_reduce(active_column and target_column);
+                in_row         <= or_reduce(active_row and target_row);
                 is_arrived     <= is_arrived or at_target;
                 is_unreachable <= is_unreachable or (is_busy and stopped and not is_arrived);
                 if at_target = '1' or stopped = '1' then

@@ -12,21 +12,9 @@ end entity fabric_tb;
 architecture test of fabric_tb is
     constant COLUMN_BITS   : positive := @COLUMN_BITS@;
     constant ROW_BITS      : positive := @ROW_BITS@;
-    constant COLUMN_DIGITS : positive := @COLUMN_DIGITS@; -- hexadecimal digits of a column's number in the file
-    constant ROW_DIGITS    : positive := @ROW_DIGITS@; -- and of a row's
-
-    -- Where the fields of a line begin: what the fabric is told, and above the flags (busy, moving, arrived, unreachable)
-    -- what it shows after the clock.
-    constant AT_Y_AT     : positive := 4;
-    constant AT_X_AT     : positive := AT_Y_AT + 4*ROW_DIGITS;
-    constant TARGET_Y_AT : positive := AT_X_AT + 4*COLUMN_DIGITS;
-    constant TARGET_X_AT : positive := TARGET_Y_AT + 4*ROW_DIGITS;
-    constant START_Y_AT  : positive := TARGET_X_AT + 4*COLUMN_DIGITS;
-    constant START_X_AT  : positive := START_Y_AT + 4*ROW_DIGITS;
-    constant TOLD_AT     : positive := START_X_AT + 4*COLUMN_DIGITS;
 
     signal clk        : std_logic := '0';
-    signal told       : std_logic_vector(3 downto 0) := "1000"; -- reset, begin_task, load_map, scan_in
+    signal told       : std_logic_vector(3 downto 0) := "1000"; -- reset, load_map, scan_in, begin_task
     signal start_x    : std_logic_vector(COLUMN_BITS - 1 downto 0) := (others => '0');
     signal start_y    : std_logic_vector(ROW_BITS - 1 downto 0) := (others => '0');
     signal target_x   : std_logic_vector(COLUMN_BITS - 1 downto 0) := (others => '0');
@@ -38,7 +26,7 @@ architecture test of fabric_tb is
 begin
     dut : entity work.fabric
         port map (
-            clk => clk, reset => told(3), @MAP_CONNECTIONS@begin_task => told(2),
+            clk => clk, reset => told(3), @MAP_CONNECTIONS@begin_task => told(0),
             start_x => start_x, start_y => start_y, target_x => target_x, target_y => target_y,
             busy => flags(3), moving => flags(2), at_x => at_x, at_y => at_y, arrived => flags(1), unreachable => flags(0)
         );
@@ -47,24 +35,26 @@ begin
 
     check : process
         file trace : text open read_mode is "tb/fabric.hex";
-        variable fields : std_logic_vector(TOLD_AT + 3 downto 0);
+
+        -- A line, from the left, a digit: reset, load_map, scan_in, begin_task; three digits each: start_x, start_y,
+        -- target_x, target_y; a digit: busy, moving, arrived, unreachable; three digits each: at_x, at_y.
+        variable fields : std_logic_vector(79 downto 0);
         variable clocks : natural := 0;
-        variable at_any : boolean := false; -- the robot was somewhere before: else nothing is said about where it is
     begin
         wait until falling_edge(clk);
         while not endfile(trace) loop
             read_hex(trace, fields);
-            told     <= fields(TOLD_AT + 3 downto TOLD_AT);
-            start_x  <= fields(START_X_AT + COLUMN_BITS - 1 downto START_X_AT);
-            start_y  <= fields(START_Y_AT + ROW_BITS - 1 downto START_Y_AT);
-            target_x <= fields(TARGET_X_AT + COLUMN_BITS - 1 downto TARGET_X_AT);
-            target_y <= fields(TARGET_Y_AT + ROW_BITS - 1 downto TARGET_Y_AT);
+            told     <= fields(79 downto 76);
+            start_x  <= fields(64 + COLUMN_BITS - 1 downto 64);
+            start_y  <= fields(52 + ROW_BITS - 1 downto 52);
+            target_x <= fields(40 + COLUMN_BITS - 1 downto 40);
+            target_y <= fields(28 + ROW_BITS - 1 downto 28);
             wait until falling_edge(clk);
             clocks := clocks + 1;
-            at_any := at_any or flags(2) = '1';
-            assert flags = fields(3 downto 0)
-                    and (not at_any or (at_x = fields(AT_X_AT + COLUMN_BITS - 1 downto AT_X_AT)
-                                        and at_y = fields(AT_Y_AT + ROW_BITS - 1 downto AT_Y_AT)))
+            -- The place counts only while the robot moves, and where it arrived.
+            assert flags = fields(27 downto 24)
+                    and ((flags(2) = '0' and flags(1) = '0')
+                         or (at_x = fields(12 + COLUMN_BITS - 1 downto 12) and at_y = fields(ROW_BITS - 1 downto 0)))
                 report "FAIL fabric: line " & integer'image(clocks) & ": another state than expected"
                 severity failure;
         end loop;

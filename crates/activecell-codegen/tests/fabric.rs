@@ -1,0 +1,285 @@
+//! The generated fabric against its model and the core.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot prepare itself should stop")]
+
+mod common;
+
+use activecell::{BitPlane, Cell, Lattice, Map, Rng};
+use activecell_codegen::model::fabric::{Fabric, Inputs, Outputs};
+use activecell_codegen::verilog;
+use common::aig::{Aig, aig};
+
+const INPUTS: [&str; 8] =
+    ["reset", "load_map", "scan_in", "begin_task", "start_x", "start_y", "target_x", "target_y"];
+const OUTPUTS: [&str; 9] =
+    ["busy", "moving", "at_x", "at_y", "arrived", "unreachable", "reached", "active", "pointer"];
+
+/// The generated fabric beside its model: both are given the same, and must show the same after every clock.
+struct Pair {
+    fabric: Fabric,
+    gates: Aig,
+    inputs: Vec<Vec<usize>>,
+    outputs: Vec<usize>,
+    lanes: u8,
+    clocks: usize,
+}
+
+impl Pair {
+    fn new(test: &str, map: &Map, loadable: bool) -> Option<Self> {
+        let files = verilog::fabric(map, loadable).unwrap();
+        let gates = aig(test, &files, "fabric", &OUTPUTS[6..])?;
+        let inputs = INPUTS.map(|name| gates.port(name)).to_vec();
+        let outputs = OUTPUTS.iter().flat_map(|name| gates.port(name)).collect();
+        let lanes = map.lattice().degree();
+        let mut pair = Self { fabric: Fabric::new(map), gates, inputs, outputs, lanes, clocks: 0 };
+        // Pointers need no reset: they hold anything before the second clock.
+        for _ in 0..2 {
+            pair.clock_unseen(Inputs { reset: true, ..Inputs::default() });
+        }
+        Some(pair)
+    }
+
+    fn clock_unseen(&mut self, inputs: Inputs) -> Outputs {
+        let (from, to) = inputs.begin.unwrap_or_default();
+        let flags = [inputs.reset, inputs.load.is_some(), inputs.load == Some(true), inputs.begin.is_some()];
+        let ends = [from.x, from.y, to.x, to.y].map(|coordinate| coordinate as u32);
+        for (port, number) in self.inputs.iter().zip(flags.map(u32::from).into_iter().chain(ends)) {
+            self.gates.drive_all(port, number);
+        }
+        self.gates.clock();
+        self.clocks += 1;
+        self.fabric.clock(inputs)
+    }
+
+    fn clock(&mut self, inputs: Inputs) -> Outputs {
+        let shown = self.clock_unseen(inputs);
+        let seen = self.outputs.iter().map(|&place| self.gates.seen(place) & 1 == 1);
+        let number = |bits: usize, value: i32| (0..bits).map(move |bit| value >> bit & 1 == 1);
+        let [x_bits, y_bits] = ["at_x", "at_y"].map(|name| self.gates.port(name).len());
+        let lanes = |bits: u8| (0..self.lanes).map(move |lane| bits >> lane & 1 == 1);
+        let expected = [shown.busy, shown.moving]
+            .into_iter()
+            .chain(number(x_bits, shown.at.x))
+            .chain(number(y_bits, shown.at.y))
+            .chain([shown.arrived, shown.unreachable])
+            // A bit more than cells, for all that lies outside.
+            .chain(self.fabric.reached().chain([false]))
+            .chain(self.fabric.active())
+            .chain(self.fabric.pointers().flat_map(lanes));
+        assert!(seen.eq(expected), "clock {}: {shown:?}", self.clocks);
+        shown
+    }
+
+    fn task(&mut self, from: Cell, to: Cell) {
+        let mut shown = self.clock(Inputs { begin: Some((from, to)), ..Inputs::default() });
+        while shown.busy {
+            shown = self.clock(Inputs::default());
+        }
+    }
+
+    fn load(&mut self, map: &Map) {
+        let (width, height) = (map.width() as i32, map.height() as i32);
+        for cell in (0..height).flat_map(|y| (0..width).map(move |x| Cell::new(x, y))) {
+            self.clock(Inputs { load: Some(!map.is_free(cell)), ..Inputs::default() });
+        }
+    }
+}
+
+/// Runs tasks on each map, in one simulation if the fabric is loadable, and compares clock by clock.
+fn compare(test: &str, maps: &[Map], loadable: bool, tasks: usize) {
+    let first = &maps[0];
+    let Some(mut pair) = Pair::new(test, first, loadable) else { return };
+    let mut rng = Rng::new(7);
+    for map in maps {
+        if loadable {
+            pair.load(map);
+        }
+        let free: Vec<Cell> = map.free().collect();
+        // Starts and targets that are free, and now and then any that the ports can say, also outside.
+        let sayable = [map.width(), map.height()].map(|count| count.next_power_of_two().max(2));
+        let mut end = || match rng.below(10) {
+            0 => Cell::new(rng.below(sayable[0]) as i32, rng.below(sayable[1]) as i32),
+            _ if free.is_empty() => Cell::default(),
+            _ => free[rng.below(free.len() as u32) as usize],
+        };
+        for _ in 0..tasks {
+            let [from, to, other] = [end(), end(), end()];
+            pair.task(from, to);
+            // A task that another cuts short.
+            pair.clock(Inputs { begin: Some((to, from)), ..Inputs::default() });
+            for _ in 0..(from.x + to.y + other.x) {
+                pair.clock(Inputs::default());
+            }
+            pair.task(other, to);
+        }
+    }
+    let (lattice, width, height) = (first.lattice(), first.width(), first.height());
+    let kind = if loadable { "loaded" } else { "fixed" };
+    println!(
+        "fabric {lattice} {width} x {height}: {} {kind} maps, {} tasks, {} clocks as the model",
+        maps.len(),
+        3 * tasks * maps.len(),
+        pair.clocks
+    );
+}
+
+fn random_maps(lattice: Lattice, width: u32, height: u32, count: u64) -> Vec<Map> {
+    let map = |seed| Map::random(lattice, width, height, (seed % 6) as f64 / 10.0, seed).unwrap();
+    (0..count).map(map).collect()
+}
+
+#[test]
+fn loaded_fabrics_do_as_the_model_at_every_clock() {
+    for lattice in Lattice::ALL {
+        for (width, height) in [(8, 8), (11, 3), (1, 6)] {
+            let maps = random_maps(lattice, width, height, 150);
+            compare(&format!("fabric_loaded_{lattice}_{width}_{height}"), &maps, true, 4);
+        }
+    }
+}
+
+#[test]
+fn fixed_fabrics_do_as_the_model_at_every_clock() {
+    for lattice in Lattice::ALL {
+        for (width, height, seed) in [(8, 8, 2), (7, 12, 3)] {
+            let map = Map::random(lattice, width, height, 0.3, seed).unwrap();
+            compare(&format!("fabric_fixed_{lattice}_{width}_{height}"), &[map], false, 100);
+        }
+    }
+}
+
+/// All tasks of 64 maps of the same size, a map a simulation: how many have a way, each of which was shortest.
+fn every_task(gates: &mut Aig, maps: &[Map]) -> usize {
+    let [load, scan, begin] = ["load_map", "scan_in", "begin_task"].map(|name| gates.port(name)[0]);
+    let ends = ["start_x", "start_y", "target_x", "target_y"].map(|name| gates.port(name));
+    let [busy, moving, arrived] = ["busy", "moving", "arrived"].map(|name| gates.port(name)[0]);
+    let where_stopped = [gates.port("at_x"), gates.port("at_y")];
+    let cells: Vec<Cell> = (0..maps[0].height() as i32)
+        .flat_map(|y| (0..maps[0].width() as i32).map(move |x| Cell::new(x, y)))
+        .collect();
+    let simulations =
+        |is: &dyn Fn(&Map) -> bool| maps.iter().rev().fold(0, |word, map| word << 1 | u64::from(is(map)));
+    gates.drive(load, u64::MAX);
+    for &cell in &cells {
+        gates.drive(scan, simulations(&|map| !map.is_free(cell)));
+        gates.clock();
+    }
+    gates.drive(load, 0);
+    let mut tasks = 0;
+    for &target in &cells {
+        let fields: Vec<_> = maps.iter().map(|map| map.wave(target).ok()).collect();
+        for &start in cells.iter().filter(|&&start| start != target) {
+            let steps: Vec<_> =
+                fields.iter().map(|field| field.as_ref().and_then(|field| field.steps(start))).collect();
+            for (port, number) in ends.iter().zip([start.x, start.y, target.x, target.y]) {
+                gates.drive_all(port, number as u32);
+            }
+            gates.drive(begin, u64::MAX);
+            gates.clock();
+            gates.drive(begin, 0);
+            // How long each robot was seen, counted in all simulations at once: bit b of the counts is word b.
+            let mut seen = [0u64; 6];
+            for clock in 0.. {
+                assert!(clock < 64, "livelock: from {start} to {target}");
+                gates.clock();
+                let mut carry = gates.seen(moving);
+                for bit in &mut seen {
+                    (*bit, carry) = (*bit ^ carry, *bit & carry);
+                }
+                if gates.seen(busy) == 0 {
+                    break;
+                }
+            }
+            let arrived = gates.seen(arrived);
+            let is_there = where_stopped.iter().zip([target.x, target.y]).flat_map(|(port, number)| {
+                port.iter().enumerate().map(move |(bit, &place)| (place, number >> bit & 1 == 1))
+            });
+            let there = is_there.fold(u64::MAX, |all, (place, one)| {
+                all & if one { gates.seen(place) } else { !gates.seen(place) }
+            });
+            for (lane, (steps, map)) in steps.into_iter().zip(maps).enumerate() {
+                let cells = seen.iter().rev().fold(0, |count, bit| count << 1 | (bit >> lane & 1) as u32);
+                let done = (arrived & there) >> lane & 1 == 1;
+                assert_eq!(done.then(|| cells - 1), steps, "from {start} to {target} in\n{}", map.to_text());
+                tasks += usize::from(steps.is_some());
+            }
+        }
+    }
+    tasks
+}
+
+/// The map whose obstacles are the bits of a number.
+fn numbered(lattice: Lattice, width: u32, height: u32, number: u32) -> Map {
+    let mut obstacles = BitPlane::new(width.into(), height.into()).unwrap();
+    for bit in 0..width * height {
+        obstacles.set(bit % width, bit / width, number >> bit & 1 == 1);
+    }
+    Map::new(lattice, obstacles)
+}
+
+#[test]
+fn every_task_on_every_small_map_ends_at_its_target_by_a_shortest_way() {
+    for (lattice, width, height, expected) in
+        [(Lattice::Square, 4, 4, Some(2_424_312)), (Lattice::Hex, 4, 3, None)]
+    {
+        let test = format!("fabric_every_task_{lattice}");
+        let map = Map::random(lattice, width, height, 0.0, 0).unwrap();
+        let files = verilog::fabric(&map, true).unwrap();
+        let Some(gates) = aig(&test, &files, "fabric", &[]) else { return };
+        let batches = (1u32 << (width * height)) / 64;
+        let tasks: usize = std::thread::scope(|scope| {
+            let workers: Vec<_> = (0..2)
+                .map(|worker| {
+                    let mut gates = gates.clone();
+                    scope.spawn(move || {
+                        let maps = |batch| {
+                            let numbers = 64 * batch..64 * (batch + 1);
+                            numbers.map(|number| numbered(lattice, width, height, number)).collect::<Vec<_>>()
+                        };
+                        let batches = (0..batches).filter(|batch| batch % 2 == worker);
+                        batches.map(|batch| every_task(&mut gates, &maps(batch))).sum::<usize>()
+                    })
+                })
+                .collect();
+            workers.into_iter().map(|worker| worker.join().unwrap()).sum()
+        });
+        println!(
+            "fabric {lattice}: {tasks} tasks on all maps of {width} x {height}, all arrived, all shortest"
+        );
+        assert!(expected.is_none_or(|expected| expected == tasks), "{tasks}");
+    }
+}
+
+#[test]
+fn the_bench_passes_and_sees_a_wrong_trace() {
+    let Some([iverilog, vvp]) = common::programs("fabric_bench", ["iverilog", "vvp"]) else { return };
+    for lattice in Lattice::ALL {
+        for loadable in [true, false] {
+            let map = Map::random(lattice, 9, 6, 0.25, 5).unwrap();
+            let folder = common::folder(&format!("fabric_bench_{lattice}_{loadable}"));
+            let files = verilog::fabric(&map, loadable).unwrap();
+            for file in &files {
+                let path = folder.join(&file.path);
+                std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+                std::fs::write(path, &file.text).unwrap();
+            }
+            let sources: Vec<&str> =
+                files.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with(".v")).collect();
+            common::run(
+                common::command(&iverilog, &folder)
+                    .args(["-g2005", "-Wall", "-o", "fabric.vvp"])
+                    .args(sources),
+            );
+            let said = common::run(common::command(&vvp, &folder).arg("fabric.vvp"));
+            assert!(said.starts_with("PASS"), "{said}");
+            println!("iverilog, {lattice}, {}: {said}", if loadable { "loaded" } else { "fixed" });
+            // The last line says that the robot arrived.
+            let trace = &files.last().unwrap().text;
+            let wrong = trace.replace("_2_", "_3_");
+            assert_ne!(trace, &wrong);
+            std::fs::write(folder.join("tb/fabric.hex"), wrong).unwrap();
+            let said = common::run(common::command(&vvp, &folder).arg("fabric.vvp"));
+            assert!(said.contains("FAIL"), "{said}");
+        }
+    }
+}
