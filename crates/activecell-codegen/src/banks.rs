@@ -51,7 +51,7 @@ impl Banks {
         for cell in map.free() {
             let wrapped = |at: i32, bits: u32| (at + BORDER) as usize & ((1 << bits) - 1);
             let (x, y) = (wrapped(cell.x, x_bits), wrapped(cell.y, y_bits));
-            let (bank, address) = (y / 2 % 4 * 4 + x / 2 % 4, (y / 8) << (x_bits - 3) | x / 8);
+            let (bank, address) = (y / 2 % 4 * 4 + x / 2 % 4, ((y / 8) << (x_bits - 3)) + x / 8);
             images[bank][address] &= !(1 << (y % 2 * 2 + x % 2));
         }
         Ok(Self { x_bits, y_bits, images })

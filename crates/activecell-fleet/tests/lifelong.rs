@@ -152,6 +152,24 @@ fn corridors_and_dead_ends_do_not_stop_a_run() {
     }
 }
 
+/// Robots that turn, on a floor with one to three free cells: a row of them moves up, or around, so that the first in rank
+/// always comes on. Without rows hardly any task is done there.
+#[test]
+fn robots_that_turn_come_on_where_nearly_all_cells_are_taken() {
+    for (lattice, seed) in
+        Lattice::ALL.into_iter().flat_map(|lattice| (0..2).map(move |seed| (lattice, seed)))
+    {
+        let map = Map::parse(lattice, &["........"; 8].join("\n")).unwrap();
+        let cells: Vec<Cell> = map.free().collect();
+        for free in [1, 3] {
+            let tasks = visits(&cells, 1000, seed);
+            let options = LifelongOptions { step_paths: Some(500), ..options(Moves::Turning, seed) };
+            let done = journal(&map, &cells[free..], &tasks, options, 100).finished(&tasks);
+            assert!(done >= 30, "{lattice:?}, seed {seed}, {free} free cells: {done} tasks done");
+        }
+    }
+}
+
 /// Nobody can move: the run goes on all the same.
 #[test]
 fn robots_that_are_boxed_in_wait() {

@@ -3,6 +3,35 @@
 use activecell::rule::{Decision, Sector, decide, neighbourhood};
 use activecell::{Cell, Dir, Map};
 
+/// How a task stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Status {
+    /// There is none.
+    #[default]
+    Idle,
+    /// It is under way.
+    Busy,
+    /// The robot is at the target.
+    Arrived,
+    /// All neighbours of the robot's cell are obstacles.
+    Enclosed,
+    /// The robot is in a cell where it was before, and would circle for ever.
+    Trapped,
+}
+
+impl Status {
+    /// The outputs `busy`, `arrived`, `enclosed` and `trapped`, the last in the lowest bit.
+    pub const fn outputs(self) -> u8 {
+        match self {
+            Self::Idle => 0,
+            Self::Busy => 0b1000,
+            Self::Arrived => 0b0100,
+            Self::Enclosed => 0b0010,
+            Self::Trapped => 0b0001,
+        }
+    }
+}
+
 /// What the navigator shows in a clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Shown {
@@ -10,14 +39,8 @@ pub struct Shown {
     pub cell: Cell,
     /// The step to the next one.
     pub go: Option<Dir>,
-    /// A task is under way.
-    pub busy: bool,
-    /// The robot is at the target.
-    pub arrived: bool,
-    /// All its neighbours are obstacles.
-    pub enclosed: bool,
-    /// It is in a cell where it was before.
-    pub trapped: bool,
+    /// How the task stands.
+    pub status: Status,
 }
 
 /// The navigator of [`windowed`](crate::verilog::windowed): after a task is loaded the window comes in the next clock, and
@@ -25,7 +48,7 @@ pub struct Shown {
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map};
-/// use activecell_codegen::model::Windowed;
+/// use activecell_codegen::model::{Status, Windowed};
 /// let map = Map::parse(Lattice::Square, "....")?;
 /// let mut navigator = Windowed::new(&map);
 /// navigator.clock(Some((Cell::new(0, 0), Cell::new(3, 0))));
@@ -35,7 +58,7 @@ pub struct Shown {
 ///     x
 /// }).collect();
 /// assert_eq!(columns, [0, 0, 1, 2, 3, 3]);
-/// assert!(navigator.shown().arrived);
+/// assert_eq!(navigator.shown().status, Status::Arrived);
 /// # Ok::<(), activecell::Error>(())
 /// ```
 #[derive(Debug, Clone)]
@@ -65,21 +88,25 @@ impl<'a> Windowed<'a> {
 
     /// What is seen before the next clock edge.
     pub fn shown(&self) -> Shown {
-        let idle = Shown { cell: self.cell, ..Shown::default() };
-        let Some(task) = self.task else { return idle };
-        let Some(sector) = self.sector(&task) else {
-            return Shown { arrived: task.is_seen, busy: !task.is_seen, ..idle };
-        };
+        let (status, go) = self.task.map_or((Status::Idle, None), |task| self.decided(&task));
+        Shown { cell: self.cell, go, status }
+    }
+
+    fn decided(&self, task: &Task) -> (Status, Option<Dir>) {
         if !task.is_seen {
-            return Shown { busy: true, ..idle };
+            return (Status::Busy, None);
         }
-        let near = self.map.lattice().distance(self.cell, task.target) == 1;
-        let decision = decide(self.map.lattice(), sector, near, neighbourhood(self.map, self.cell));
-        let trapped = task.saved == Some(self.cell);
-        match decision {
-            Decision::Enclosed => Shown { enclosed: true, trapped, ..idle },
-            Decision::Move(_) if trapped => Shown { trapped, ..idle },
-            Decision::Move(dir) => Shown { go: Some(dir), busy: true, ..idle },
+        let lattice = self.map.lattice();
+        let Some(sector) = Sector::towards(lattice, self.cell, task.target) else {
+            return (Status::Arrived, None);
+        };
+        if task.saved == Some(self.cell) {
+            return (Status::Trapped, None);
+        }
+        let near = lattice.distance(self.cell, task.target) == 1;
+        match decide(lattice, sector, near, neighbourhood(self.map, self.cell)) {
+            Decision::Enclosed => (Status::Enclosed, None),
+            Decision::Move(dir) => (Status::Busy, Some(dir)),
         }
     }
 
@@ -100,9 +127,5 @@ impl<'a> Windowed<'a> {
                 self.cell = self.map.lattice().neighbour(self.cell, dir);
             }
         }
-    }
-
-    fn sector(&self, task: &Task) -> Option<Sector> {
-        Sector::towards(self.map.lattice(), self.cell, task.target)
     }
 }

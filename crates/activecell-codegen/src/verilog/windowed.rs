@@ -2,7 +2,7 @@
 
 use super::module;
 use crate::circuits::{decision, sector};
-use crate::model::{Shown, Windowed};
+use crate::model::{Shown, Status, Windowed};
 use crate::template::fill;
 use crate::{Banks, SourceFile};
 use activecell::{Cell, Dir, Error, Lattice, Map, Rng};
@@ -73,12 +73,17 @@ fn navigator(map: &Map, banks: &Banks) -> String {
     let degree = lattice.degree();
     let cells = match lattice {
         Lattice::Square => "squares",
-        Lattice::Hex => "hexagons, odd rows half a cell to the right,",
+        Lattice::Hex => "hexagons, odd rows shifted right",
     };
     let sector = sector(lattice);
     let inputs: Vec<&str> = sector.inputs.iter().map(|port| port.name.as_str()).collect();
-    let connected =
-        |names: &[&str]| names.iter().map(|name| format!(".{name}({name})")).collect::<Vec<_>>().join(", ");
+    let connected = |names: &[&str]| {
+        let lines = names.chunks(4).map(|names| {
+            let ports: Vec<String> = names.iter().map(|name| format!(".{name}({name})")).collect();
+            ports.join(", ")
+        });
+        lines.collect::<Vec<_>>().join(",\n        ")
+    };
     let [wide, narrow] = [&[&inputs[..], &["is_near"]].concat(), &inputs].map(|names| connected(names));
     let sizes = sizes(map, banks);
     let texts = [
@@ -118,16 +123,19 @@ fn neighbourhood(lattice: Lattice) -> String {
         format!("    wire [{}:0] {name} = {joined}; // {about}\n", lattice.degree() - 1)
     };
     [
-        lanes("ring1", "the neighbours", &|from, lane| lattice.neighbour(from, Dir(lane))),
-        lanes("ahead", "behind each", &|from, lane| lattice.ring2(from, ring2(0)(lane))),
-        lanes("between", "behind each and the next one", &|from, lane| lattice.ring2(from, ring2(1)(lane))),
+        lanes("ring1", "each neighbour", &|from, lane| lattice.neighbour(from, Dir(lane))),
+        lanes("ahead", "straight behind it", &|from, lane| lattice.ring2(from, ring2(0)(lane))),
+        lanes("between", "behind it and the next", &|from, lane| lattice.ring2(from, ring2(1)(lane))),
     ]
     .concat()
 }
 
+/// Whether a step leads that way.
+type Leads = fn(Cell, Cell) -> bool;
+
 /// Which lanes lead a column or a row on.
 fn moves(lattice: Lattice) -> String {
-    let ways: [(&str, fn(Cell, Cell) -> bool); 4] = [
+    let ways: [(&str, Leads); 4] = [
         ("to_right", |from, to| to.x > from.x),
         ("to_left", |from, to| to.x < from.x),
         ("to_below", |from, to| to.y > from.y),
@@ -151,14 +159,13 @@ fn bench(map: &Map, banks: &Banks) -> [SourceFile; 2] {
     let lines = clocks.iter().map(|(load, shown)| {
         let (start, target) = load.unwrap_or_default();
         let go = shown.go.map_or(0, |dir| 1 << dir.0);
-        let flags = [shown.busy, shown.arrived, shown.enclosed, shown.trapped].map(u8::from);
-        let flags = flags.iter().fold(0, |flags, flag| flags << 1 | flag);
         format!(
-            "{}_{}_{}_{}_{go:02x}_{flags:x}\n",
+            "{}_{}_{}_{}_{go:02x}_{:x}\n",
             u8::from(load.is_some()),
             cell(start),
             cell(target),
-            cell(shown.cell)
+            cell(shown.cell),
+            shown.status.outputs()
         )
     });
     let lines: String = lines.collect();
@@ -179,8 +186,11 @@ fn bench(map: &Map, banks: &Banks) -> [SourceFile; 2] {
     [SourceFile::new("tb/windowed_tb.v", text), SourceFile::new("tb/windowed.hex", lines)]
 }
 
+/// What is loaded with a clock's edge, from where to where, and what is shown before it.
+type Clock = (Option<(Cell, Cell)>, Shown);
+
 /// Random tasks as the model runs them, clock by clock; long ones are cut off by the next.
-fn trace(map: &Map) -> Vec<(Option<(Cell, Cell)>, Shown)> {
+fn trace(map: &Map) -> Vec<Clock> {
     let free: Vec<Cell> = map.free().collect();
     let mut rng = Rng::new(map.cells() as u64);
     let mut navigator = Windowed::new(map);
@@ -188,7 +198,7 @@ fn trace(map: &Map) -> Vec<(Option<(Cell, Cell)>, Shown)> {
     let mut clock = |load| {
         clocks.push((load, navigator.shown()));
         navigator.clock(load);
-        clocks.len() < CLOCKS && navigator.shown().busy
+        clocks.len() < CLOCKS && navigator.shown().status == Status::Busy
     };
     clock(None);
     if !free.is_empty() {

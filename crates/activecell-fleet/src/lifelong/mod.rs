@@ -3,7 +3,8 @@
 //! All robots always hold paths through a window of the next steps that collide with nobody; at their end they rest for
 //! ever, so that whatever happens there is a valid step. Each step the robots go one step along their paths; then each, by
 //! rank, gets the best path that it can have, and whoever is in its way makes way, and whoever is in the way of that one, and
-//! so on. Until the time is over, chains of robots are planned anew whose paths cost less together.
+//! so on; robots that turn first try to move up in rows. Until the time is over, chains of robots are planned anew whose
+//! paths cost less together.
 //!
 //! Sources: windows, and large-neighbourhood search in them: H. Jiang, Y. Zhang, R. Veerapaneni, J. Li, *Scaling Lifelong
 //! Multi-Agent Path Finding to More Realistic Settings: Research Challenges and Opportunities*, `SoCS` 2024; chains of
@@ -379,6 +380,7 @@ fn plan(crew: &mut Crew, scene: Scene<'_>, limits: Limits, rng: &mut Rng) {
     order.sort_unstable_by_key(|&robot| scene.ranks[robot]);
     let by_rank = Chain { judge: Judge::Rank, robots: ROBOTS, paths: PATHS };
     let urgent = Chain { robots: URGENT_ROBOTS, paths: URGENT_PATHS, ..by_rank };
+    let turning = scene.ground.headings() > 1;
     let mut turns = 0;
     for &robot in &order {
         if limits.is_over(crew.work) {
@@ -387,7 +389,9 @@ fn plan(crew: &mut Crew, scene: Scene<'_>, limits: Limits, rng: &mut Rng) {
         if !crew.is_best(scene, robot) {
             crew.improve(scene, robot, rng);
         }
-        if !crew.is_best(scene, robot) {
+        // In a jam of robots that turn a row that moves up is found soon, and to look for better first would use up the
+        // time. Omni robots seldom jam, and come on faster without rows.
+        if !(crew.is_best(scene, robot) || turning && crew.move_up(scene, robot)) {
             crew.push(scene, robot, if turns < FIRST { urgent } else { by_rank }, rng);
         }
         crew.fix(scene, robot);

@@ -1,11 +1,14 @@
 //! The paths of all robots through the window, and how they become better: each in turn, and by making way.
 
+mod row;
+
 use super::distances::{Distances, View};
 use super::ground::{Ground, Place};
 use super::reach::{Goal, Look, Reach};
 use super::window::Window;
 use crate::floor::NONE;
 use activecell::Rng;
+use row::Row;
 
 /// Where a robot has to go: the cell and the slot of its distances, for the next errand and, if known, for the one after.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,6 +111,7 @@ pub(super) struct Crew {
     reach: Reach,
     group: Group,
     alone: Vec<Place>,
+    row: Row,
     /// Paths looked for.
     pub(super) work: u64,
 }
@@ -136,6 +140,7 @@ impl Crew {
             reach: Reach::new(ground, steps),
             group: Group::default(),
             alone: vec![Place::default(); length],
+            row: Row::new(ground),
             work: 0,
         }
     }
@@ -351,6 +356,7 @@ impl Crew {
         self.window.bytes()
             + self.firm.bytes()
             + self.reach.bytes()
+            + self.row.bytes()
             + self.paths.capacity() * size_of::<Place>()
     }
 }
