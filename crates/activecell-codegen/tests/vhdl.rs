@@ -77,10 +77,11 @@ fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool
         ["-a", "--std=93"].into_iter().chain(sources).collect(),
         vec!["--elab-run", "--std=93", bench, "--ieee-asserts=disable-at-0"],
     ];
-    let [_, said] = steps.map(|step| {
+    let [analysed, said] = steps.map(|step| {
         let output = common::command(ghdl, folder).args(step).output().expect("GHDL was found");
         [output.stdout, output.stderr].map(|said| String::from_utf8_lossy(&said).into_owned()).concat()
     });
+    assert_eq!(analysed, "", "warnings");
     let [passed, failed] = ["PASS ", "FAIL "].map(|word| said.contains(word));
     assert!(passed != failed, "{said}");
     assert!(failed || said.lines().count() == 1, "warnings: {said}");

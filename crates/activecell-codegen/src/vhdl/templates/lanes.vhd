@@ -5,7 +5,7 @@ use ieee.std_logic_1164.all;
 
 package lanes is
     -- 1 if some lane is 1.
-    function or_reduce (lanes : std_logic_vector) return std_logic;
+    function or_reduce (bits : std_logic_vector) return std_logic;
 
     -- The first if the condition is 1, else the second.
     function mux (condition : std_logic; yes, no : std_logic_vector) return std_logic_vector;
@@ -16,11 +16,11 @@ package lanes is
 end package lanes;
 
 package body lanes is
-    function or_reduce (lanes : std_logic_vector) return std_logic is
+    function or_reduce (bits : std_logic_vector) return std_logic is
         variable result : std_logic := '0';
     begin
-        for lane in lanes'range loop
-            result := result or lanes(lane);
+        for lane in bits'range loop
+            result := result or bits(lane);
         end loop;
         return result;
     end function or_reduce;
