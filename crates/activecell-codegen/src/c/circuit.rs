@@ -5,6 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A circuit as a function without state: `static`, its name and its types prefixed `ac_`. Lanes are bits of `uint32_t`.
 ///
+/// It calls `ac_bit`, which makes 1 or 0 of a condition: `ac_bit.h` of [`super::firmware()`].
+///
 /// With one output the function returns it, with several a structure of them.
 ///
 /// ```
@@ -32,13 +34,12 @@ pub fn function(circuit: &Circuit) -> String {
     for wire in &circuit.wires {
         text += &statement(circuit, wire);
     }
-    text += "\n";
     if let [output] = outputs[..] {
-        return text + &format!("    return {};\n}}\n", output.port.name);
+        return text + &format!("\n    return {};\n}}\n", output.port.name);
     }
-    text += &format!("    {{\n        const {result} outputs = {{ ");
+    text += &format!("    const {result} outputs = {{ ");
     text += &outputs.iter().map(|wire| wire.port.name.as_str()).collect::<Vec<_>>().join(", ");
-    text + " };\n        return outputs;\n    }\n}\n"
+    text + " };\n\n    return outputs;\n}\n"
 }
 
 /// Inputs that the circuit does without; a compiler would warn of them.
@@ -48,8 +49,11 @@ fn unused(circuit: &Circuit) -> String {
         collect(&wire.expr, &mut signals);
     }
     let inputs = circuit.inputs.iter().enumerate();
-    let unused = inputs.filter(|(place, _)| !signals.contains(&Signal(*place)));
-    unused.map(|(_, port)| format!("    (void){}; /* makes no difference */\n", port.name)).collect()
+    let mut text = String::new();
+    for (_, port) in inputs.filter(|(place, _)| !signals.contains(&Signal(*place))) {
+        text += &format!("    (void){}; /* makes no difference */\n", port.name);
+    }
+    text
 }
 
 /// The signals that a formula reads.
@@ -215,9 +219,9 @@ fn formula(circuit: &Circuit, expr: &Expr) -> String {
         joined(&parts.iter().map(|part| formula(circuit, part)).collect::<Vec<_>>(), operator)
     };
     match expr {
-        _ if is_question(circuit, expr) => format!("({} ? 1U : 0U)", condition(circuit, expr)),
+        _ if is_question(expr) => format!("ac_bit{}", bracketed(&condition(circuit, expr))),
         Expr::Signal(signal) => name(signal).clone(),
-        Expr::Const { value, .. } => format!("{value}U"),
+        Expr::Const { value, .. } => number(*value),
         Expr::Not(inner) => {
             format!("({} ^ {})", formula(circuit, inner), number(mask(circuit.width(inner).unwrap_or(0))))
         }
@@ -239,11 +243,11 @@ fn formula(circuit: &Circuit, expr: &Expr) -> String {
 }
 
 /// Whether it is better asked with `&&` and `||` than computed with `&` and `|`: it looks into a signal of many bits.
-fn is_question(circuit: &Circuit, expr: &Expr) -> bool {
+fn is_question(expr: &Expr) -> bool {
     match expr {
         Expr::Bit(..) | Expr::Any(_) => true,
-        Expr::Not(inner) => is_question(circuit, inner),
-        Expr::And(parts) | Expr::Or(parts) => parts.iter().any(|part| is_question(circuit, part)),
+        Expr::Not(inner) => is_question(inner),
+        Expr::And(parts) | Expr::Or(parts) => parts.iter().any(is_question),
         _ => false,
     }
 }
@@ -292,6 +296,10 @@ fn factors(circuit: &Circuit, parts: &[Expr]) -> Vec<String> {
     });
     factors.extend(compared);
     factors
+}
+
+fn bracketed(text: &str) -> String {
+    if text.starts_with('(') && whole(text) != text { text.into() } else { format!("({text})") }
 }
 
 fn joined(parts: &[String], operator: &str) -> String {

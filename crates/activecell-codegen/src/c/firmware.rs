@@ -2,7 +2,8 @@
 
 use super::circuit::function;
 use super::lattice;
-use crate::model::player::{self, Motion, Segment};
+use crate::model::player::{Motion, Segment};
+use crate::template::fill;
 use crate::{SourceFile, circuits};
 use activecell::control::{Inputs, State};
 use activecell::rule::Sector;
@@ -38,7 +39,8 @@ pub fn footprint(map: &Map) -> Footprint {
 /// `main` and for a Cortex-M board. The lattice is that of the map.
 ///
 /// # Errors
-/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, and segments without a tick.
+/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, programs without a segment, and segments without
+/// a tick.
 ///
 /// ```
 /// use activecell::{Lattice, Map};
@@ -57,6 +59,13 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
             allowed: "at most 65535 for firmware; use larger cells or a part of the map",
         });
     }
+    if program.is_some_and(<[Segment]>::is_empty) {
+        return Err(Error::BadValue {
+            name: "number of segments of the program",
+            value: 0.0,
+            allowed: "at least 1; leave the program out if the robot is there already",
+        });
+    }
     if program.is_some_and(|segments| segments.iter().any(|segment| segment.ticks == 0)) {
         return Err(Error::BadValue {
             name: "ticks of a segment of the program",
@@ -66,6 +75,7 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
     }
     let mut files = vec![
         SourceFile::new("include/activecell.h", header(map, program)),
+        SourceFile::new("src/ac_bit.h", include_str!("templates/ac_bit.h")),
         SourceFile::new("src/ac_rule.c", rule(map.lattice())),
         SourceFile::new("src/ac_learning.c", learning(map.lattice())),
         SourceFile::new("src/ac_wave.c", wave(map.lattice())),
@@ -82,16 +92,6 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
     ];
     files.extend(examples.map(|(name, text)| SourceFile::new(format!("examples/{name}"), text)));
     Ok(files)
-}
-
-/// Puts texts in the places of a template.
-fn fill(template: &str, places: &[(&str, &str)]) -> String {
-    let filled = places.iter().fold(template.to_owned(), |text, (place, value)| {
-        debug_assert!(text.contains(&format!("@{place}@")), "{place} is no place of the template");
-        text.replace(&format!("@{place}@"), value)
-    });
-    debug_assert!(!filled.contains('@'), "a place was left over: {filled}");
-    filled
 }
 
 /// How the rows of a map lie in words.
@@ -160,7 +160,7 @@ fn header(map: &Map, program: Option<&[Segment]>) -> String {
             " *   ac_program.c   the program that this was generated from\n",
             format!(
                 "\n{}/** The program M. */\nextern const ac_segment ac_program[AC_PROGRAM_COUNT];\n",
-                define("AC_PROGRAM_COUNT", segments.len().max(1) as u64, "Segments of the program.")
+                define("AC_PROGRAM_COUNT", segments.len() as u64, "Segments of the program.")
             ),
         )
     });
@@ -174,6 +174,7 @@ fn header(map: &Map, program: Option<&[Segment]>) -> String {
             ("DEGREE", &degree.to_string()),
             ("DIRECTIONS", &directions),
             ("SECTORS", &Sector::all(lattice).len().to_string()),
+            ("SECTOR_BITS", &(Sector::all(lattice).len().next_power_of_two() - 1).to_string()),
             ("LAST", &(degree - 1).to_string()),
             ("LAST_AHEAD", &(degree + 7).to_string()),
             ("LAST_BETWEEN", &(degree + 15).to_string()),
@@ -222,7 +223,6 @@ fn rule(lattice: Lattice) -> String {
     fill(
         include_str!("templates/ac_rule.c"),
         &[
-            ("SECTOR_FUNCTION", &function(&circuits::sector(lattice))),
             ("DECIDE_FUNCTION", &function(&circuits::decision(lattice))),
             ("LANE_FUNCTION", &lattice::lane_number(lattice)),
             ("GEOMETRY", &lattice::geometry(lattice)),
@@ -263,15 +263,11 @@ fn wave(lattice: Lattice) -> String {
 }
 
 fn drive() -> String {
-    let nothing = Inputs::default();
-    let asks = Motion::ALL.map(|motion| player::inputs(Some(motion), true, nothing).0.into());
-    let blocks = Motion::ALL.map(|motion| motion.state().drives_towards().unwrap_or(nothing).0.into());
     fill(
         include_str!("templates/ac_drive.c"),
         &[
             ("CONTROL_FUNCTION", &function(&circuits::control())),
-            ("ASKS", &lattice::list(asks.into_iter())),
-            ("BLOCKS", &lattice::list(blocks.into_iter())),
+            ("PLAYER_FUNCTION", &function(&circuits::player())),
         ],
     )
 }

@@ -1,22 +1,10 @@
 //! What the lattice decides in the C text: offsets, sectors, orders, all read from the core.
 
-use super::circuit::{function, number};
+use super::circuit::function;
 use crate::circuits;
 use crate::logic::{Circuit, Expr};
 use activecell::rule::Sector;
 use activecell::{Cell, Dir, Lattice};
-
-/// Each input of [`circuits::sector`] as a comparison in C.
-const COMPARISONS: [(&str, [&str; 2]); 8] = [
-    ("is_left", ["target.x < from.x", "there < here"]),
-    ("is_right", ["target.x > from.x", "there > here"]),
-    ("is_above", ["target.y < from.y"; 2]),
-    ("is_below", ["target.y > from.y"; 2]),
-    ("is_wide", ["", "across > down"]),
-    ("is_level", ["", "across == down"]),
-    ("is_flat", ["", "across > (3U * down)"]),
-    ("is_even", ["", "across == (3U * down)"]),
-];
 
 /// The rows of the window, from two above the cell on.
 const ROWS: [&str; 5] = ["far_above", "above", "level", "below", "far_below"];
@@ -29,18 +17,40 @@ pub(super) const fn planes(lattice: Lattice) -> u32 {
     }
 }
 
-/// Distances and sectors.
+/// Distances and bearings.
 pub(super) fn geometry(lattice: Lattice) -> String {
     let template = match lattice {
         Lattice::Square => include_str!("templates/square.c"),
         Lattice::Hex => include_str!("templates/hex.c"),
     };
-    let inputs = circuits::sector(lattice).inputs;
-    let comparisons = inputs.iter().map(|input| {
-        let (_, text) = COMPARISONS.iter().find(|(name, _)| *name == input.name).expect("a known comparison");
-        format!("\n        ({}) ? 1U : 0U", text[lattice as usize])
-    });
-    template.replace("@COMPARISONS@", &comparisons.collect::<Vec<_>>().join(","))
+    template.replace("@SECTOR_TABLE@", &sectors(lattice))
+}
+
+/// The sector for each slant on hexagons (see there), for level, below, above, and for straight, right, left: what the
+/// circuit says for the comparisons that these mean.
+fn sectors(lattice: Lattice) -> String {
+    let circuit = circuits::sector(lattice);
+    let slants: &[&[&str]] = match lattice {
+        Lattice::Square => &[&[]],
+        Lattice::Hex => &[&[], &["is_level"], &["is_wide"], &["is_wide", "is_even"], &["is_wide", "is_flat"]],
+    };
+    let mut text = String::new();
+    for slant in slants {
+        let rows = [None, Some("is_below"), Some("is_above")].map(|vertical| {
+            let sectors = [None, Some("is_right"), Some("is_left")].map(|horizontal| {
+                let holds =
+                    |name: &str| slant.contains(&name) || [vertical, horizontal].contains(&Some(name));
+                let inputs: Vec<u32> = circuit.inputs.iter().map(|input| holds(&input.name).into()).collect();
+                circuit.evaluate(&inputs)[0] as i32
+            });
+            list(sectors.into_iter())
+        });
+        text += &match lattice {
+            Lattice::Square => rows.map(|row| format!("        {row},\n")).concat(),
+            Lattice::Hex => format!("        {{ {} }},\n", rows.join(", ")),
+        };
+    }
+    text
 }
 
 /// Columns to the right of a cell, in an even and an odd row, and rows down.
@@ -77,50 +87,62 @@ pub(super) fn list(numbers: impl Iterator<Item = i32>) -> String {
     format!("{{ {} }}", numbers.map(|number| format!("{number}U")).collect::<Vec<_>>().join(", "))
 }
 
-/// Where the five rows of the window are read. In odd rows of hexagons the rows beside lie a column farther right.
+/// The five rows of the window, each from the bit two to the left of the cell on. In odd rows of hexagons the rows beside
+/// lie a column farther right.
 pub(super) fn slices(lattice: Lattice) -> String {
-    let rows = ROWS.iter().enumerate().map(|(place, name)| {
-        let row = match place {
-            0 => "row".into(),
-            1 => "&row[words]".into(),
-            _ => format!("&row[{place}U * words]"),
+    let place = |name: &str, bit: &str| {
+        format!(
+            "    const uint32_t *const {name} = &map->rows[(cell.y * words) + ({bit} >> 5U)];\n    \
+             const uint32_t {name}_right = {bit} & 31U;\n    \
+             const uint32_t {name}_left = 31U - {name}_right;\n"
+        )
+    };
+    let mut text = place("here", "cell.x");
+    if lattice == Lattice::Hex {
+        text += "    /* Beside an odd row the rows lie half a cell to the left. */\n";
+        text += "    const uint32_t aside = (uint32_t)cell.x + (cell.y & 1U);\n";
+        text += &place("beside", "aside");
+    }
+    for (row, name) in ROWS.iter().enumerate() {
+        let base = if lattice == Lattice::Hex && row % 2 == 1 { "beside" } else { "here" };
+        let [word, next] = match row {
+            0 => ["0U".to_owned(), "1U".to_owned()],
+            1 => ["words".to_owned(), "words + 1U".to_owned()],
+            _ => [format!("{row}U * words"), format!("({row}U * words) + 1U")],
         };
-        let bit = if lattice == Lattice::Hex && place % 2 == 1 { "cell.x + (cell.y & 1U)" } else { "cell.x" };
-        format!("    const uint32_t {name} = slice({row}, {bit});\n")
-    });
-    rows.collect()
+        text += &format!(
+            "    const uint32_t {name} =\n        \
+             ({base}[{word}] >> {base}_right) | (({base}[{next}] << 1U) << {base}_left);\n"
+        );
+    }
+    text
 }
 
 /// The lanes of the window, gathered from those rows: the neighbours, what lies ahead of them, what between them.
 pub(super) fn window(lattice: Lattice) -> String {
-    let mut terms: Vec<(usize, i32, u32)> = Vec::new();
-    for group in 0..3 {
-        for dir in lattice.dirs() {
-            let offset = match group {
-                0 => Offset::of_dir(lattice, dir),
-                1 => Offset::of(|cell| lattice.ring2(cell, 2 * dir.0)),
-                _ => Offset::of(|cell| lattice.ring2(cell, 2 * dir.0 + 1)),
-            };
-            let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
-            assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
-            let lane = 8 * group + i32::from(dir.0);
-            let (row, shift) = ((offset.rows + 2) as usize, offset.columns[0] + 2 - lane);
-            match terms.iter_mut().find(|term| (term.0, term.1) == (row, shift)) {
-                Some(term) => term.2 |= 1 << lane,
-                None => terms.push((row, shift, 1 << lane)),
-            }
-        }
-    }
-    let terms = terms.into_iter().map(|(row, shift, lanes)| {
-        let row = ROWS[row];
-        let shifted = match shift {
-            0 => row.into(),
-            1.. => format!("({row} >> {shift}U)"),
-            _ => format!("({row} << {}U)", -shift),
+    [
+        lanes(lattice, "ring1", |cell, dir| lattice.neighbour(cell, dir)),
+        lanes(lattice, "ahead", |cell, dir| lattice.ring2(cell, 2 * dir.0)),
+        lanes(lattice, "between", |cell, dir| lattice.ring2(cell, 2 * dir.0 + 1)),
+    ]
+    .join("\n")
+}
+
+/// A group of them, the last lane first.
+fn lanes(lattice: Lattice, name: &str, place: impl Fn(Cell, Dir) -> Cell) -> String {
+    let mut text = String::new();
+    for dir in lattice.dirs().rev() {
+        let offset = Offset::of(|cell| place(cell, dir));
+        let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
+        assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
+        let (row, bit) = (ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2);
+        text += &if text.is_empty() {
+            format!("    uint32_t {name} = at({row}, {bit}U);\n")
+        } else {
+            format!("    {name} = with({name}, {row}, {bit}U);\n")
         };
-        format!("({shifted} & {})", number(lanes))
-    });
-    terms.collect::<Vec<_>>().join(" |\n        ")
+    }
+    text
 }
 
 /// From a signal with one lane set to the number of the lane.
@@ -141,9 +163,12 @@ pub(super) fn lane_number(lattice: Lattice) -> String {
 
 /// The order in which each sector asks the neighbours.
 pub(super) fn orders(lattice: Lattice) -> String {
-    let orders = Sector::all(lattice)
-        .map(|sector| list(sector.candidates(lattice, false).map(|candidate| candidate.dir.0.into())));
-    orders.map(|order| format!("        {order},\n")).collect()
+    let mut text = String::new();
+    for sector in Sector::all(lattice) {
+        let order = sector.candidates(lattice, false).map(|candidate| candidate.dir.0.into());
+        text += &format!("        {},\n", list(order));
+    }
+    text
 }
 
 /// How the wave comes to a word of cells from each direction.

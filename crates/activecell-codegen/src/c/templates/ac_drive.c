@@ -2,8 +2,10 @@
  * The control unit of the motors, and the player of programs.
  */
 #include "activecell.h"
+#include "ac_bit.h"
 
 @CONTROL_FUNCTION@
+@PLAYER_FUNCTION@
 uint32_t ac_control_step(uint32_t state, uint32_t inputs)
 {
     return ac_control_next(state, inputs).next_state;
@@ -32,19 +34,12 @@ bool ac_player_is_done(const ac_player *player)
 /* What the control unit is told for the segment that the player is in. */
 static uint32_t inputs_of(const ac_player *player, bool go, uint32_t obstacles)
 {
-    /* What asks for each motion, and the flag of the obstacle in its way. */
-    static const uint8_t asks[AC_MOTIONS] = @ASKS@;
-    static const uint8_t blocks[AC_MOTIONS] = @BLOCKS@;
-    uint32_t inputs = obstacles & (AC_IN_RIGHT | AC_IN_LEFT | AC_IN_FRONT | AC_IN_BEHIND);
-    if (ac_player_is_done(player)) {
-        inputs |= AC_IN_STOP;
-    } else {
-        const uint32_t motion = player->segments[player->segment].motion & (AC_MOTIONS - 1U);
-        if (go && ((inputs & blocks[motion]) == 0U)) {
-            inputs |= asks[motion];
-        }
+    const bool is_done = ac_player_is_done(player);
+    uint32_t motion = 0U;
+    if (!is_done) {
+        motion = player->segments[player->segment].motion;
     }
-    return inputs;
+    return ac_player_inputs(motion, ac_bit(is_done), ac_bit(go), obstacles >> 2U);
 }
 
 uint32_t ac_player_clock(ac_player *player, bool go, bool tick, uint32_t obstacles)

@@ -1,9 +1,9 @@
 /*
- * The rule that learns: each cell keeps a level, at first its distance to the target, which only rises. The robot raises
- * that of its cell above the lowest of its free neighbours and moves to the lowest.
+ * The rule that learns: each cell keeps a level, at first its distance to the target, which only rises.
+ * The robot raises that of its cell above the lowest of its free neighbours and moves to the lowest.
  *
- * LRTA*: R. Korf, Real-Time Heuristic Search, Artificial Intelligence 42, 1990. The table is open-addressed: an entry
- * lies at the place that its cell's hash says, or at the next vacant one.
+ * LRTA*: R. Korf, Real-Time Heuristic Search, Artificial Intelligence 42, 1990. The table is
+ * open-addressed: an entry lies at the place that its cell's hash says, or at the next vacant one.
  */
 #include "activecell.h"
 
@@ -32,7 +32,10 @@ bool ac_learning_start(ac_learning *learning, ac_cell target, ac_level *levels, 
 static uint32_t place_of(const ac_learning *learning, ac_cell cell)
 {
     const uint32_t key = ((uint32_t)cell.y << 16U) | cell.x;
-    /* The product with 2^32 divided by the golden ratio, its upper half folded in: D. Knuth, Searching and Sorting. */
+    /*
+     * The product with 2^32 divided by the golden ratio, its upper half folded in: D. Knuth, Searching
+     * and Sorting.
+     */
     const uint32_t product = key * 2654435769U;
     const uint32_t ones = learning->capacity - 1U;
     uint32_t place = (product ^ (product >> 16U)) & ones;
@@ -88,12 +91,15 @@ static uint32_t level_of(const ac_learning *learning, ac_cell cell)
     return ac_distance(cell, learning->target) + learnt;
 }
 
-/* The free neighbour of the lowest level, of equals the first in the order of the rule; raises the cell's own level. */
+/*
+ * The free neighbour of the lowest level, of equals the first in the order of the rule; raises the
+ * cell's own level.
+ */
 static ac_move lowest(ac_learning *learning, const ac_map *map, ac_cell cell)
 {
     static const uint8_t order[@SECTORS@][AC_DIRECTIONS] = {
 @ORDER@    };
-    const uint32_t sector = ac_sector(cell, learning->target);
+    const uint32_t sector = ac_bearing(cell, learning->target) & AC_SECTOR;
     const uint32_t distance = ac_distance(cell, learning->target);
     ac_level *const own = &learning->levels[place_of(learning, cell)];
     ac_move move = AC_UNREACHABLE;

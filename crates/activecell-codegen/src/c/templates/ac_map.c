@@ -1,6 +1,7 @@
 /*
- * The map: @WIDTH@ columns, @HEIGHT@ rows of @LATTICE@, @FREE@ cells free. 1 is an obstacle; two rows and columns
- * of obstacles lie around it, as ac_map in activecell.h asks for.
+ * The map: @WIDTH@ columns and @HEIGHT@ rows of @LATTICE@.
+ * @FREE@ cells are free (0). Around it lie two rows and columns of obstacles, as ac_map in activecell.h
+ * says.
  */
 #include "activecell.h"
 

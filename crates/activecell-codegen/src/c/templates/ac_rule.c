@@ -1,17 +1,34 @@
 /*
  * The published rule: which neighbour becomes the next active cell.
  *
- * After Alzoubi and Miraz, Enhancing Robot Navigation Efficiency Using Cellular Automata with Active Cells.
+ * After Alzoubi and Miraz, Enhancing Robot Navigation Efficiency Using Cellular Automata with Active
+ * Cells.
  */
 #include "activecell.h"
+#include "ac_bit.h"
 
-@SECTOR_FUNCTION@
 @DECIDE_FUNCTION@
 @LANE_FUNCTION@
 /* How far two numbers are apart. */
 static uint32_t apart(uint32_t a, uint32_t b)
 {
-    return (a < b) ? (b - a) : (a - b);
+    uint32_t difference = a - b;
+    if (a < b) {
+        difference = b - a;
+    }
+    return difference;
+}
+
+/* 1 if the first of two numbers is less. They are below 2^31. */
+static uint32_t less(uint32_t a, uint32_t b)
+{
+    return (a - b) >> 31U;
+}
+
+/* Where the second of two numbers lies: 0 if they are equal, 1 if it is greater, 2 if it is less. */
+static uint32_t side(uint32_t a, uint32_t b)
+{
+    return less(a, b) + (2U * less(b, a));
 }
 
 @GEOMETRY@
@@ -41,27 +58,36 @@ bool ac_is_free(const ac_map *map, ac_cell cell)
     return is_free;
 }
 
-/* The cells of a row from a bit on, in the lowest bits; at least five. */
-static uint32_t slice(const uint32_t *row, uint32_t bit)
+/* A cell of a row. */
+static uint32_t at(uint32_t row, uint32_t bit)
 {
-    const uint32_t word = bit >> 5U;
-    const uint32_t shift = bit & 31U;
-    return (row[word] >> shift) | ((row[word + 1U] << 1U) << (31U - shift));
+    return (row >> bit) & 1U;
+}
+
+/* Lanes, each moved to the next, and a cell of a row in the lowest. */
+static uint32_t with(uint32_t lanes, uint32_t row, uint32_t bit)
+{
+    return (lanes << 1U) | at(row, bit);
 }
 
 uint32_t ac_window(const ac_map *map, ac_cell cell)
 {
     const uint32_t words = map->words;
-    /* Two rows above the cell, as the map begins with two rows of obstacles. */
-    const uint32_t *const row = &map->rows[cell.y * words];
+    /* From two rows above and two columns to the left, as the map begins with two of obstacles. */
 @SLICES@
-    return @WINDOW@;
+    /* The lanes, the last one first. */
+@WINDOW@
+    return ring1 | (ahead << 8U) | (between << 16U);
 }
 
-ac_move ac_decide(uint32_t window, uint32_t sector, uint32_t near)
+ac_move ac_decide(uint32_t window, uint32_t bearing)
 {
-    const ac_decide_@NAME@_outputs outputs =
-        ac_decide_@NAME@(window & @ONES@, (window >> 8U) & @ONES@, (window >> 16U) & @ONES@, sector, near);
+    const ac_decide_@NAME@_outputs outputs = ac_decide_@NAME@(
+        window & @ONES@,
+        (window >> 8U) & @ONES@,
+        (window >> 16U) & @ONES@,
+        bearing & AC_SECTOR,
+        bearing & AC_NEAR);
     return (outputs.enclosed != 0U) ? AC_ENCLOSED : ac_lane_number(outputs.go);
 }
 
@@ -69,11 +95,9 @@ ac_move ac_next(const ac_map *map, ac_cell cell, ac_cell target)
 {
     ac_move move = AC_OUTSIDE;
     if ((cell.x < map->width) && (cell.y < map->height)) {
-        const uint32_t distance = ac_distance(cell, target);
-        if (distance == 0U) {
-            move = AC_ARRIVED;
-        } else {
-            move = ac_decide(ac_window(map, cell), ac_sector(cell, target), (distance == 1U) ? 1U : 0U);
+        move = AC_ARRIVED;
+        if ((cell.x != target.x) || (cell.y != target.y)) {
+            move = ac_decide(ac_window(map, cell), ac_bearing(cell, target));
         }
     }
     return move;
@@ -89,8 +113,9 @@ void ac_replay_start(ac_replay *replay, ac_cell from, ac_cell target)
 }
 
 /*
- * The rule has no memory, so a robot that comes back to a cell circles for ever. One cell is remembered, and another
- * one instead of it after 1, 2, 4, 8, ... steps: R. Brent, An Improved Monte Carlo Factorization Algorithm, BIT 20, 1980.
+ * The rule has no memory, so a robot that comes back to a cell circles for ever. One cell is
+ * remembered, and another one instead of it after 1, 2, 4, 8, ... steps: R. Brent, An Improved Monte
+ * Carlo Factorization Algorithm, BIT 20, 1980.
  */
 ac_move ac_replay_step(ac_replay *replay, const ac_map *map)
 {

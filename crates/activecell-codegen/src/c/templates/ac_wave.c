@@ -1,9 +1,10 @@
 /*
- * The wave: a free cell beside a reached one is reached at the next step, and remembers the direction. 32 cells at once.
+ * The wave: a free cell beside a reached one is reached at the next step, and remembers the direction.
+ * 32 cells at once.
  *
- * Memory, in rows of the map's words: two rows of cells just reached; the plane of cells reached, with a row of zeros
- * above and below; then for each row of the map its @PLANES@ planes of directions. Bits lie as in the map, so what is
- * shifted in from beside the map meets an obstacle there.
+ * Memory, in rows of the map's words: two rows of cells just reached; the plane of cells reached, with
+ * a row of zeros above and below; then for each row of the map its @PLANES@ planes of directions. Bits
+ * lie as in the map, so what is shifted in from beside the map meets an obstacle there.
  */
 #include "activecell.h"
 

@@ -1,8 +1,10 @@
 /*
- * A Cortex-M board: the route of the wave from the map's first free cell to its last, written through semihosting.
+ * A Cortex-M board: the route of the wave from the map's first free cell to its last, written through
+ * semihosting.
  *
- *   arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -Os -ffreestanding -nostdlib -Iinclude -Iexamples \
- *       -T examples/cortex_m.ld examples/cortex_m.c examples/startup.c src/ac_*.c -lgcc -o route.elf
+ *   arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -Os -ffreestanding -nostdlib \
+ *       -Iinclude -Iexamples -T examples/cortex_m.ld examples/cortex_m.c examples/startup.c src/ac_*.c \
+ *       -lgcc -o route.elf
  *   qemu-system-arm -M microbit -nographic -semihosting-config enable=on,target=native -kernel route.elf
  */
 #include "activecell.h"

@@ -1,5 +1,6 @@
 /*
- * A plain program: the route of the wave and the ways of the two local rules, from the map's first free cell to its last.
+ * A plain program: the route of the wave and the ways of the two local rules, from the map's first free
+ * cell to its last.
  *
  *   cc -std=c99 -O2 -Iinclude examples/main.c src/ac_*.c -o route && ./route
  */

@@ -86,5 +86,6 @@ extern const vector_table vectors;
 /* Reset, NMI, hard fault and the other exceptions of the core; a board's own interrupts follow. */
 const vector_table vectors __attribute__((section(".vectors"), used)) = {
     &stack_top,
-    { reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault },
+    { reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
+      fault },
 };

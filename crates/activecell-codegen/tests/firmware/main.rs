@@ -1,0 +1,108 @@
+//! The C firmware against the core: for every input, on maps, on emulated boards.
+
+#![expect(clippy::unwrap_used, reason = "a test whose files or tools fail should stop")]
+
+mod board;
+#[path = "../common/mod.rs"]
+mod common;
+mod host;
+mod misra;
+
+use activecell::{BitPlane, Lattice, Map};
+use activecell_codegen::c;
+use activecell_codegen::model::player::{Motion, Segment};
+use std::path::{Path, PathBuf};
+
+/// Warnings are errors, and there are many.
+const STRICT: [&str; 16] = [
+    "-std=c99",
+    "-Wall",
+    "-Wextra",
+    "-Wpedantic",
+    "-Wconversion",
+    "-Wsign-conversion",
+    "-Wshadow",
+    "-Wcast-qual",
+    "-Wstrict-prototypes",
+    "-Wmissing-prototypes",
+    "-Wundef",
+    "-Wdouble-promotion",
+    "-Wswitch-enum",
+    "-Werror",
+    "-Iinclude",
+    "-Iexamples",
+];
+
+/// The firmware of a map in a folder of its own.
+fn written(test: &str, map: &Map, program: Option<&[Segment]>) -> PathBuf {
+    let folder = common::folder(test);
+    for file in c::firmware(map, program).unwrap() {
+        let path = folder.join(&file.path);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, &file.text).unwrap();
+    }
+    folder
+}
+
+/// The sources of the firmware in a folder, for a command.
+fn sources(folder: &Path) -> Vec<String> {
+    let files = std::fs::read_dir(folder.join("src")).unwrap().map(|file| file.unwrap().path());
+    let files = files.filter(|file| file.extension().is_some_and(|ending| ending == "c"));
+    let name = |file: PathBuf| format!("src/{}", file.file_name().unwrap().to_string_lossy());
+    let mut names: Vec<String> = files.map(name).collect();
+    names.sort();
+    names
+}
+
+/// A MovingAI map of the folder `ACTIVECELL_DATA`, else of `shared/data` beside the project; its lattice as given.
+fn real_map(test: &str, lattice: Lattice, name: &str) -> Option<Map> {
+    let data = std::env::var_os("ACTIVECELL_DATA");
+    let data = data.map_or_else(|| common::root().join("../shared/data"), PathBuf::from);
+    let file = data.join("movingai").join(name);
+    let Ok(text) = std::fs::read_to_string(&file) else {
+        eprintln!("SKIPPED: {test}: {} was not found", file.display());
+        return None;
+    };
+    Some(movingai(lattice, &text))
+}
+
+/// Read without the checks that a stranger's file needs.
+fn movingai(lattice: Lattice, text: &str) -> Map {
+    let rows: Vec<&str> = text.lines().skip(4).collect();
+    let mut plane = BitPlane::new(rows[0].len() as u64, rows.len() as u64).unwrap();
+    for (y, row) in rows.iter().enumerate() {
+        for (x, character) in row.chars().enumerate() {
+            plane.set(x as u32, y as u32, !matches!(character, '.' | 'G' | 'S'));
+        }
+    }
+    Map::new(lattice, plane)
+}
+
+/// The project's own floor.
+fn warehouse(lattice: Lattice) -> Map {
+    movingai(lattice, &std::fs::read_to_string(common::root().join("maps/warehouse.map")).unwrap())
+}
+
+#[test]
+fn what_cannot_be_firmware_is_refused_and_lines_are_short() {
+    let map = warehouse(Lattice::Square);
+    let run = |ticks| Segment { motion: Motion::Forward, ticks };
+    let wide = Map::new(Lattice::Square, BitPlane::new(65_536, 1).unwrap());
+    for (map, program, expected) in [
+        (&wide, None, "the longer side of the map in cells is 65536"),
+        (&map, Some(&[run(3), run(0)][..]), "ticks of a segment of the program is 0"),
+        (&map, Some(&[]), "number of segments of the program is 0"),
+    ] {
+        let error = c::firmware(map, program).unwrap_err().to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+    for lattice in Lattice::ALL {
+        for file in c::firmware(&warehouse(lattice), Some(&[run(3)])).unwrap() {
+            for line in file.text.lines() {
+                assert!(line.len() <= 110 && line.trim_end() == line, "{}: {line}", file.path);
+            }
+            assert!(!file.text.contains('@'), "{}: a place was not filled in", file.path);
+            assert!(file.text.ends_with('\n') && !file.text.ends_with("\n\n"), "{}", file.path);
+        }
+    }
+}

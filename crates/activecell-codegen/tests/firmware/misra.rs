@@ -1,0 +1,74 @@
+//! MISRA C:2012, as far as cppcheck knows it; and the examples, without a warning.
+
+use crate::{STRICT, common, sources, warehouse, written};
+use activecell::Lattice;
+use activecell_codegen::model::player::{Motion, Segment};
+use std::collections::BTreeSet;
+
+/// Advisory rules that the firmware does not follow, and why.
+const DEVIATIONS: [(&str, &str); 2] = [
+    ("2.5", "a firmware need not use all words of the header: macros that it does not"),
+    (
+        "8.7",
+        "functions of the header are for others: with external linkage, also if no other file here calls them",
+    ),
+];
+
+const PROGRAM: [Segment; 2] =
+    [Segment { motion: Motion::Forward, ticks: 3 }, Segment { motion: Motion::Left, ticks: u32::MAX }];
+
+#[test]
+fn misra_finds_named_deviations_only() {
+    let Some([cppcheck]) = common::programs("misra", ["cppcheck"]) else { return };
+    for lattice in Lattice::ALL {
+        let folder = written(&format!("misra_{lattice}"), &warehouse(lattice), Some(&PROGRAM));
+        let mut command = common::command(&cppcheck, &folder);
+        let output = command
+            .args(["--std=c99", "--addon=misra", "--error-exitcode=0", "-q", "-Iinclude"])
+            .args(["--template={file}:{line} {id}"])
+            .args(sources(&folder))
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&output.stderr);
+        let findings: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+        let rule = |line: &str| line.split("misra-c2012-").nth(1).map(str::to_owned);
+        let others: Vec<&&str> = findings
+            .iter()
+            .filter(|line| rule(line).is_none_or(|rule| DEVIATIONS.iter().all(|(known, _)| rule != *known)))
+            .collect();
+        assert!(others.is_empty(), "{lattice}: {others:#?}");
+        let rules: BTreeSet<String> = findings.iter().filter_map(|line| rule(line)).collect();
+        println!("{lattice}: {} findings of MISRA, all of {rules:?}", findings.len());
+    }
+}
+
+#[test]
+fn programs_in_other_standards_can_include_the_header() {
+    let folder = written("header", &warehouse(Lattice::Hex), Some(&PROGRAM));
+    let use_it = "#include \"activecell.h\"\nac_cell there(void);\nac_cell there(void) { return ac_neighbour(ac_cell(), AC_E); }\n";
+    std::fs::write(folder.join("user.cpp"), use_it).unwrap();
+    let Some([cpp]) = common::programs("programs_in_other_standards", ["g++"]) else { return };
+    for standard in ["-std=c++11", "-std=c++20"] {
+        let strict = [standard, "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-Iinclude"];
+        common::run(common::command(&cpp, &folder).args(strict).args(["-c", "user.cpp"]));
+    }
+    let Some([gcc]) = common::programs("programs_in_other_standards", ["gcc"]) else { return };
+    for standard in ["-std=c11", "-std=c17", "-std=gnu99"] {
+        let strict = STRICT.map(|flag| if flag == "-std=c99" { standard } else { flag });
+        common::run(common::command(&gcc, &folder).args(strict).arg("-c").args(sources(&folder)));
+    }
+}
+
+#[test]
+fn a_plain_program_is_compiled_without_a_warning_and_runs() {
+    let Some([gcc]) = common::programs("a_plain_program", ["gcc"]) else { return };
+    for lattice in Lattice::ALL {
+        for level in ["-O0", "-Os", "-O3"] {
+            let folder = written(&format!("plain_{lattice}"), &warehouse(lattice), Some(&PROGRAM));
+            let files = [sources(&folder), vec!["examples/main.c".into()]].concat();
+            common::run(common::command(&gcc, &folder).args(STRICT).args([level, "-o", "route"]).args(files));
+            let said = common::run(&mut common::command(&folder.join("route"), &folder));
+            assert!(said.contains("arrived") && said.contains("learning: arrived after"), "{said}");
+        }
+    }
+}
