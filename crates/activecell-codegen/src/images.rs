@@ -1,11 +1,9 @@
-//! Memory images and traces that Verilog and VHDL share.
+//! Memory images and traces of the program player, which Verilog and VHDL share.
 
 use crate::SourceFile;
-use crate::model::fabric_trace;
 use crate::model::player::{Motion, OBSTACLES, Segment};
 use crate::model::player_trace::{Stretch, trace};
-use crate::verilog::bits_below;
-use activecell::{Cell, Error, Map};
+use activecell::Error;
 
 /// Segments that a player's numbers of 16 bits can count.
 const SEGMENTS_MAX: usize = u16::MAX as usize;
@@ -99,25 +97,4 @@ fn line(stretch: &Stretch) -> String {
         u8::from(senses.go) << 5 | u8::from(senses.tick) << 4 | (senses.obstacles.0 & OBSTACLES.0) >> 2;
     let (clocks, segment, done) = (stretch.clocks, stretch.segment, u8::from(stretch.done));
     format!("{clocks:08x}_{segment:04x}_{done:x}_{q:x}_{told:02x}\n")
-}
-
-/// What the fabric does with random tasks, a clock a line, as `fabric_tb` reads it: reset, begin, load and the cell loaded;
-/// start and target; after the clock where the robot is, and busy, moving, arrived, unreachable.
-pub(crate) fn fabric_trace(map: &Map, loadable: bool) -> SourceFile {
-    let [x_digits, y_digits] = [map.width(), map.height()].map(|size| bits_below(size).div_ceil(4) as usize);
-    let cell = |cell: Cell| format!("{:0x_digits$x}_{:0y_digits$x}", cell.x, cell.y);
-    let nibble = |flags: [bool; 4]| flags.iter().fold(0, |sum, &flag| sum << 1 | u8::from(flag));
-    let lines = fabric_trace::trace(map, loadable, 1).into_iter().map(|(told, shown)| {
-        let (start, target) = told.begin.unwrap_or_default();
-        let load = [told.load.is_some(), told.load.unwrap_or(false)];
-        format!(
-            "{:x}_{}_{}_{}_{:x}\n",
-            nibble([told.reset, told.begin.is_some(), load[0], load[1]]),
-            cell(start),
-            cell(target),
-            cell(shown.at),
-            nibble([shown.busy, shown.moving, shown.arrived, shown.unreachable])
-        )
-    });
-    SourceFile::new("tb/fabric.hex", lines.collect::<Vec<_>>().concat())
 }

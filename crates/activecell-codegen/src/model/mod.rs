@@ -1,7 +1,6 @@
 //! The generated machines in Rust, clock by clock, built on the rules of the core: what their traces must equal.
 
 pub mod fabric;
-pub mod fabric_trace;
 pub mod player;
 pub mod player_trace;
 mod windowed;

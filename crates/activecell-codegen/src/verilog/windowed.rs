@@ -73,12 +73,17 @@ fn navigator(map: &Map, banks: &Banks) -> String {
     let degree = lattice.degree();
     let cells = match lattice {
         Lattice::Square => "squares",
-        Lattice::Hex => "hexagons, odd rows half a cell to the right,",
+        Lattice::Hex => "hexagons, odd rows shifted right",
     };
     let sector = sector(lattice);
     let inputs: Vec<&str> = sector.inputs.iter().map(|port| port.name.as_str()).collect();
-    let connected =
-        |names: &[&str]| names.iter().map(|name| format!(".{name}({name})")).collect::<Vec<_>>().join(", ");
+    let connected = |names: &[&str]| {
+        let lines = names.chunks(4).map(|names| {
+            let ports: Vec<String> = names.iter().map(|name| format!(".{name}({name})")).collect();
+            ports.join(", ")
+        });
+        lines.collect::<Vec<_>>().join(",\n        ")
+    };
     let [wide, narrow] = [&[&inputs[..], &["is_near"]].concat(), &inputs].map(|names| connected(names));
     let sizes = sizes(map, banks);
     let texts = [
@@ -118,9 +123,9 @@ fn neighbourhood(lattice: Lattice) -> String {
         format!("    wire [{}:0] {name} = {joined}; // {about}\n", lattice.degree() - 1)
     };
     [
-        lanes("ring1", "the neighbours", &|from, lane| lattice.neighbour(from, Dir(lane))),
-        lanes("ahead", "behind each", &|from, lane| lattice.ring2(from, ring2(0)(lane))),
-        lanes("between", "behind each and the next one", &|from, lane| lattice.ring2(from, ring2(1)(lane))),
+        lanes("ring1", "each neighbour", &|from, lane| lattice.neighbour(from, Dir(lane))),
+        lanes("ahead", "straight behind it", &|from, lane| lattice.ring2(from, ring2(0)(lane))),
+        lanes("between", "behind it and the next", &|from, lane| lattice.ring2(from, ring2(1)(lane))),
     ]
     .concat()
 }

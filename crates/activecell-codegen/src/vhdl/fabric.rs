@@ -1,14 +1,13 @@
 //! The fabric: a small automaton for every cell of the map.
 
 use super::{bench_lines, entity, lanes};
-use crate::images::fabric_trace;
 use crate::template::fill;
 use crate::verilog::{bits_below, checked, neighbour};
-use crate::{SourceFile, circuits};
+use crate::{SourceFile, circuits, verilog};
 use activecell::{Dir, Error, Lattice, Map};
 
-/// The fabric of [`crate::verilog::fabric`], with the same ports and generics, and a test bench that compares it with its
-/// model on random tasks.
+/// The fabric of [`crate::verilog::fabric`], with the same ports and generics, and its test bench, which reads the same
+/// file.
 ///
 /// The files are in the order in which they can be analysed.
 ///
@@ -29,15 +28,16 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
     let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
     let filled =
         |path: String, template: &str| SourceFile::new(path, fill(&fill(template, &values), &values));
-    Ok(vec![
+    let mut files = vec![
         lanes(),
         SourceFile::new(format!("rtl/{}.vhd", step.name), entity(&step)),
         filled(format!("rtl/fabric_cell_{lattice}.vhd"), include_str!("templates/fabric_cell.vhd")),
         filled("rtl/fabric.vhd".into(), include_str!("templates/fabric.vhd")),
         bench_lines(),
         filled("tb/fabric_tb.vhd".into(), include_str!("templates/fabric_tb.vhd")),
-        fabric_trace(map, loadable),
-    ])
+    ];
+    files.extend(verilog::fabric(map, loadable)?.into_iter().filter(|file| file.path == "tb/fabric.hex"));
+    Ok(files)
 }
 
 fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
@@ -59,7 +59,7 @@ fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
     let choose = |yes: &str, no: &str| String::from(if loadable { yes } else { no });
     vec![
         ("MAP_PORTS", choose(include_str!("templates/fabric_map_ports.vhd"), "")),
-        ("MAP_CONNECTIONS", choose("load_map => told(1), scan_in => told(0), scan_out => open, ", "")),
+        ("MAP_CONNECTIONS", choose("load_map => told(2), scan_in => told(1), scan_out => open, ", "")),
         ("LOADING", choose(include_str!("templates/fabric_loading.vhd"), "")),
         ("STOP", choose("reset or load_map", "reset")),
         ("MAP", if loadable { LOADED.into() } else { fixed(map) }),
@@ -73,8 +73,6 @@ fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
         ("HEIGHT", map.height().to_string()),
         ("COLUMN_BITS", column_bits.to_string()),
         ("ROW_BITS", row_bits.to_string()),
-        ("COLUMN_DIGITS", column_bits.div_ceil(4).to_string()),
-        ("ROW_DIGITS", row_bits.div_ceil(4).to_string()),
     ]
 }
 

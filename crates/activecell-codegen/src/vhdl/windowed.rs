@@ -50,7 +50,7 @@ fn values(map: &Map, banks: &Banks) -> Vec<(&'static str, String)> {
     let lattice = map.lattice();
     let cells = match lattice {
         Lattice::Square => "squares",
-        Lattice::Hex => "hexagons, odd rows half a cell to the right,",
+        Lattice::Hex => "hexagons, odd rows shifted right",
     };
     let sector = sector(lattice);
     let inputs: Vec<&str> = sector.inputs.iter().map(|port| port.name.as_str()).collect();

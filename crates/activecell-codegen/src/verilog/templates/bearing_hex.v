@@ -1,7 +1,7 @@
 // Where the target lies as seen from a cell: the comparisons from which the sector follows.
 //
-// Across is counted in half cells, since odd rows stand half a cell to the right; down in rows. So a step along a row is
-// 2 across, any other step 1 across and 1 down.
+// Across is counted in half cells, since odd rows stand half a cell to the right; down in rows. So a step
+// along a row is 2 across, any other step 1 across and 1 down.
 module bearing_hex #(
     parameter X_BITS = 8, // bits of a column's number
     parameter Y_BITS = 8  // bits of a row's number
@@ -22,7 +22,8 @@ module bearing_hex #(
 );
     localparam BITS = (X_BITS > Y_BITS ? X_BITS : Y_BITS) + 4;
 
-    // Half cells from the left edge to the centres, less the half cell that both have: twice the column, 1 more in odd rows.
+    // Half cells from the left edge to the centres, less the half cell that both have: twice the column,
+    // 1 more in odd rows.
     wire signed [BITS-1:0] across = $signed({1'b0, target_x, target_y[0]}) - $signed({1'b0, x, y[0]});
     wire signed [BITS-1:0] down   = $signed({1'b0, target_y}) - $signed({1'b0, y});
     wire signed [BITS-1:0] thrice = down + (down <<< 1);
@@ -32,7 +33,8 @@ module bearing_hex #(
     assign is_above = down < 0;
     assign is_below = ~is_above & down != 0;
 
-    // One is farther than the other if their sum and their difference have the same sign, and as far if one of these is 0.
+    // One is farther than the other if their sum and their difference have the same sign, and as far if
+    // one of these is 0.
     wire signed [BITS-1:0] sum         = across + down;
     wire signed [BITS-1:0] rest        = across - down;
     wire signed [BITS-1:0] thrice_sum  = across + thrice;
@@ -43,5 +45,6 @@ module bearing_hex #(
     assign is_even  = thrice_sum == 0 | thrice_rest == 0;
     assign is_flat  = ~is_even & (thrice_sum < 0) == (thrice_rest < 0);
 
-    assign is_near = down == 0 & (across == 2 | across == -2) | is_level & (across == 1 | across == -1);
+    assign is_near = down == 0 & (across == 2 | across == -2)
+                   | is_level & (across == 1 | across == -1);
 endmodule

@@ -21,7 +21,8 @@ module bearing_square #(
     assign is_above = target_y < y;
     assign is_below = ~is_above & ~is_row;
 
-    // One column aside in the same row, or one row in the same column. The literal widens the sums, so none wraps.
+    // One column aside in the same row, or one row in the same column. The literal widens the sums, so
+    // none wraps.
     wire is_column_aside = x + 1 == target_x || target_x + 1 == x;
     wire is_row_aside    = y + 1 == target_y || target_y + 1 == y;
 

@@ -5,7 +5,7 @@ module map_bank #(
 ) (
     input  wire                    clk,
     input  wire [ADDRESS_BITS-1:0] address, // which tile
-    output reg  [3:0]              tile     // a clock later: upper left, upper right, lower left, lower right from bit 0
+    output reg  [3:0]              tile     // a clock later: from bit 0 the upper two cells, the lower two
 );
     (* ram_style = "block", rom_style = "block" *)
     reg [3:0] tiles [0:(1 << ADDRESS_BITS) - 1];

@@ -4,17 +4,18 @@
 //     memory -> motion of the segment -> player_inputs -> control_unit -> motors
 //       ^---- next segment <- ticks counted <- encoder
 //
-// M lies in a read-only memory, a segment (a straight run or a turn) a word: the motion and how many ticks it lasts.
-// - Every tick counts until the program has ended, also while the robot waits: what it rolls on when it brakes must not be
-//   driven twice.
-// - The robot waits (calm) while go is 0, or while there is an obstacle where the segment leads to. It never leaves its
-//   way for it.
+// M lies in a read-only memory, a segment (a straight run or a turn) a word: the motion and how many
+// ticks it lasts.
+// - Every tick counts until the program has ended, also while the robot waits: what it rolls on when it
+//   brakes must not be driven twice.
+// - The robot waits (calm) while go is 0, or while there is an obstacle where the segment leads to. It
+//   never leaves its way for it.
 // - After the last tick it stops, and never moves again until it is reset.
 module player #(
     parameter SEGMENTS     = @SEGMENTS@, // segments of the program
     parameter SEGMENT_BITS = @SEGMENT_BITS@, // enough for SEGMENTS
     parameter TICK_BITS    = @TICK_BITS@, // enough for the ticks of every segment
-    parameter IMAGE        = "rtl/player.hex" // the program, for $readmemh: a word for each segment, and one for the end
+    parameter IMAGE        = "rtl/player.hex" // a word for each segment, and one for the end
 ) (
     input  wire                    clk,
     input  wire                    reset,     // to the beginning of the program; for a clock at least
@@ -26,10 +27,11 @@ module player #(
     output wire                    q2,        // wheels left
     output wire                    q3,        // wheels right
     output wire [SEGMENT_BITS-1:0] segment,   // the segment that the robot is in, from 0
-    output wire                    turning,   // it is a turn: a steered robot counts the pulses of its steering
+    output wire                    turning,   // it is a turn: a steered robot counts its steering
     output wire                    done       // the program has ended
 );
-    // The word of the segment. The memory is asked for the segment of the next clock, so that its word comes in time.
+    // The word of the segment. The memory is asked for the segment of the next clock, so that its word
+    // comes in time.
     reg  [TICK_BITS+2:0]    words [0:SEGMENTS];
     reg  [TICK_BITS+2:0]    word;
     reg  [SEGMENT_BITS-1:0] number;

@@ -1,5 +1,6 @@
-// Test bench of windowed_@LATTICE@: @TASKS@ tasks over @CLOCKS@ clocks. Each line of tb/windowed.hex is a clock: the inputs, and
-// what the model in Rust shows. Prints PASS, or FAIL with the first difference. Run it in the folder above rtl and tb.
+// Test bench of windowed_@LATTICE@: @TASKS@ tasks over @CLOCKS@ clocks. Each line of tb/windowed.hex is a
+// clock: the inputs, and what the model in Rust shows. Prints PASS, or FAIL with the first difference.
+// Run it in the folder above rtl and tb.
 `timescale 1ns / 1ns
 module windowed_tb;
     localparam CLOCKS   = @CLOCKS@;
@@ -40,13 +41,15 @@ module windowed_tb;
         @(negedge clk);
         reset = 1'b0;
         for (n = 0; n < CLOCKS; n = n + 1) begin
-            {load, start_x, start_y, target_x, target_y, expected_x, expected_y, expected_go, expected_flags} = lines[n];
+            {load, start_x, start_y, target_x, target_y,
+             expected_x, expected_y, expected_go, expected_flags} = lines[n];
             #1;
-            if ({x, y} !== {expected_x[@X_BITS@-1:0], expected_y[@Y_BITS@-1:0]} || go !== expected_go[@TOP@:0]
+            if (x !== expected_x[@X_BITS@-1:0] || y !== expected_y[@Y_BITS@-1:0]
+                || go !== expected_go[@TOP@:0]
                 || {busy, arrived, enclosed, trapped} !== expected_flags) begin
-                $display("FAIL windowed_@LATTICE@: clock %0d: at (%0d,%0d) go %b busy, arrived, enclosed, trapped %b",
+                $display("FAIL windowed_@LATTICE@: clock %0d: at (%0d,%0d), go %b, status %b",
                     n, x, y, go, {busy, arrived, enclosed, trapped});
-                $display("    expected: at (%0d,%0d) go %b busy, arrived, enclosed, trapped %b",
+                $display("    expected: at (%0d,%0d), go %b, status %b (busy, arrived, enclosed, trapped)",
                     expected_x, expected_y, expected_go[@TOP@:0], expected_flags);
                 $finish;
                 n = CLOCKS;

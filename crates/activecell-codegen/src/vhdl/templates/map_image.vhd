@@ -3,7 +3,8 @@ library ieee;
 use ieee.std_logic_1164.all;
 
 package map_image is
-    -- Tiles of 2 x 2 cells, 1 for an obstacle: upper left, upper right, lower left, lower right from bit 0.
+    -- Tiles of 2 x 2 cells, 1 for an obstacle: upper left, upper right, lower left, lower right from
+    -- bit 0.
     type tiles_type is array (natural range <>) of std_logic_vector(3 downto 0);
 
     -- The tiles of a bank, in the order of their addresses.

@@ -1,5 +1,6 @@
--- Test bench of windowed_@LATTICE@. Each line of tb/windowed.hex is a clock: the inputs, and what the model in Rust shows.
--- Reports PASS, or FAIL with the first difference. Run it in the folder above rtl and tb.
+-- Test bench of windowed_@LATTICE@. Each line of tb/windowed.hex is a clock: the inputs, and what the
+-- model in Rust shows. Reports PASS, or FAIL with the first difference. Run it in the folder above rtl
+-- and tb.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -65,7 +66,8 @@ begin
             assert x = fields(X_AT + X_BITS - 1 downto X_AT) and y = fields(Y_AT + Y_BITS - 1 downto Y_AT)
                     and go = fields(@TOP@ + 4 downto 4) and flags = fields(3 downto 0)
                 report "FAIL windowed_@LATTICE@: line " & integer'image(clocks + 1) & ": at ("
-                    & integer'image(to_integer(unsigned(x))) & "," & integer'image(to_integer(unsigned(y))) & ")"
+                    & integer'image(to_integer(unsigned(x))) & ","
+                    & integer'image(to_integer(unsigned(y))) & ")"
                 severity failure;
             clocks := clocks + 1;
             wait until falling_edge(clk);
