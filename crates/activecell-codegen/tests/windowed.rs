@@ -178,6 +178,15 @@ fn the_model_follows_the_published_rule() {
     );
 }
 
+#[test]
+fn maps_beyond_block_ram_are_refused_and_texts_repeat() {
+    let large = Map::random(Lattice::Square, 2049, 1025, 0.0, 1).unwrap();
+    let refused = verilog::windowed(&large).unwrap_err().to_string();
+    assert!(refused.starts_with("map of 2049 x 1025 cells is too large: at most 4194304 cells"), "{refused}");
+    let map = Map::random(Lattice::Hex, 20, 30, 0.2, 1).unwrap();
+    assert_eq!(verilog::windowed(&map), verilog::windowed(&map));
+}
+
 /// At every position, come to from every neighbouring one: on a map that fills the banks, and on one with a border.
 #[test]
 fn windows_are_the_cells_of_the_map() {
