@@ -19,10 +19,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub fn decision(lattice: Lattice) -> Circuit {
     let lanes = u32::from(lattice.degree());
     let table = Sectors::of(lattice);
-    let mut circuit = Circuit::new(
-        &format!("decide_{lattice}"),
-        "One decision of the published rule. A lane a neighbour, clockwise from the top.",
-    );
+    let mut circuit = Circuit::new(&format!("decide_{lattice}"), &about(lattice));
     let ring1 = circuit.input("ring1", lanes, "obstacles among the neighbours");
     let ahead = circuit.input("ahead", lanes, "obstacles straight ahead of each neighbour");
     let between =
@@ -82,6 +79,19 @@ pub fn decision(lattice: Lattice) -> Circuit {
         "all neighbours are obstacles: the robot stays",
     );
     circuit
+}
+
+/// What the lanes and the numbers of the sectors mean.
+fn about(lattice: Lattice) -> String {
+    let lanes: Vec<String> =
+        lattice.dirs().map(|dir| format!("{} {}", dir.0, lattice.dir_name(dir))).collect();
+    let sectors = match lattice {
+        Lattice::Square => "Sectors: 0 N, 1 NE, 2 E, 3 SE, 4 S, 5 SW, 6 W, 7 NW.",
+        Lattice::Hex => {
+            "Sectors: 2j and 2j + 1 where direction j is nearest, and then the one clockwise, or anticlockwise, of it."
+        }
+    };
+    format!("One decision of the published rule. A lane a neighbour: {}.\n{sectors}", lanes.join(", "))
 }
 
 fn select_any(some: Signal, otherwise: Signal) -> Expr {

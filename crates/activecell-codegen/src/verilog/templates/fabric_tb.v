@@ -57,7 +57,7 @@ module fabric_tb;
             #4 clk = 1'b0;
         end
         if (errors == 0)
-            $display("PASS: fabric, %0d clocks, %0d arrivals as in the model", CLOCKS, arrivals);
+            $display("PASS fabric: %0d clocks, %0d arrivals as in the model", CLOCKS, arrivals);
         else
             $display("FAIL: fabric, %0d of %0d clocks are not as in the model", errors, CLOCKS);
         $finish;
