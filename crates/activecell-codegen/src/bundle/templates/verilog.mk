@@ -26,7 +26,7 @@ $(DESIGNS:%=sim-%): sim-%: tb/%_tb.v $(RTL)
 
 $(DESIGNS:%=synth-%): synth-%: $(RTL)
 	@mkdir -p build
-	$(YOSYS) -q -p "read_verilog $(RTL); synth_ice40 -top $(call top,$*) -abc9 -device hx; \
+	$(YOSYS) -q -p "read_verilog -defer $(RTL); synth_ice40 -top $(call top,$*) -abc9 -device hx; \
 	    delete t:\$$scopeinfo; write_json build/$*.json; tee -o build/$*.stat stat"
 	@$(NEXTPNR) --hx8k --package ct256 --json build/$*.json --asc build/$*.asc --timing-allow-fail \
 	    --log build/$*.pnr -q
