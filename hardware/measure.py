@@ -72,14 +72,14 @@ def decisions() -> str:
 
 
 def windowed() -> str:
-    cases = [("square", 64), ("square", 128), ("square", 256), ("hex", 128), ("hex", 256)]
+    cases = [("square", 64), ("square", 256), ("hex", 64), ("hex", 256)]
     rows = []
     for lattice, side in cases[:1] if QUICK else cases:
         # The border takes four columns and rows of the memory.
         folder = bundle(f"windowed_{lattice}_{side}", side - 4, side - 4, "--lattice", lattice)
         for part in (HX8K, ECP5):
             note(f"windowed {lattice} {side} {part.name}")
-            found = measure(part, folder, sources(folder), f"windowed_{lattice}")
+            found = measure(part, folder, sources(folder), f"windowed_{lattice}", 60)
             rows.append([f"{lattice}, {side} x {side}", part.name, found.luts, found.flip_flops, found.rams,
                          found.mhz, found.ns])
     return table(["memory", "part", "LUTs", "flip-flops", "block RAMs", "MHz", "ns a step"], rows)
@@ -96,7 +96,7 @@ def fabric() -> str:
             note(f"fabric {lattice} {width} x {height} {'wired in' if fixed else 'loadable'} {part.name}")
             options = ["--lattice", lattice] + (["--fixed-map"] if fixed else [])
             folder = bundle(f"fabric_{lattice}_{width}x{height}_{fixed}", width, height, *options)
-            found = measure(part, folder, sources(folder), "fabric", seeds=(1,) if width > 16 else (1, 2, 3))
+            found = measure(part, folder, sources(folder), "fabric", 150, seeds=(1,) if width > 16 else (1, 2, 3))
             cells = width * height
             # A wave reaches each cell at most once, and so does the robot.
             longest_us = 2 * cells / found.mhz

