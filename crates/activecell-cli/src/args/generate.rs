@@ -33,7 +33,7 @@ pub(crate) struct GenerateArgs {
     /// The robot that plays the program: its wheels and encoders
     #[arg(long, value_name = "FILE.toml", requires = "path")]
     pub(crate) robot: Option<PathBuf>,
-    /// Wire the map of the fabric in: half the hardware, but another map needs another bit stream
+    /// Wire the map of the fabric in: less hardware, but another map needs another bit stream
     #[arg(long, requires = "path")]
     pub(crate) fixed_map: bool,
     /// Print one JSON object

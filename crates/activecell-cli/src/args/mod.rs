@@ -52,9 +52,13 @@ impl Cli {
     /// The arguments that the command was given; ends it with help or a message otherwise.
     pub(crate) fn read() -> Self {
         // Of all commands with a map only this one can do without.
-        let command = Self::command()
+        let mut command = Self::command()
             .mut_subcommand("generate", |command| command.mut_arg("path", |map| map.required(false)));
-        Self::from_arg_matches(&command.get_matches()).unwrap_or_else(|error| error.exit())
+        let read = Self::from_arg_matches(&command.get_matches_mut());
+        read.unwrap_or_else(|_| {
+            let what = "options of the map need a MAP";
+            command.error(clap::error::ErrorKind::MissingRequiredArgument, what).exit()
+        })
     }
 }
 

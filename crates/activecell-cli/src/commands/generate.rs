@@ -1,7 +1,7 @@
 //! `activecell generate`: the navigator as firmware or hardware.
 
 use super::{counted, load};
-use crate::args::GenerateArgs;
+use crate::args::{GenerateArgs, WrongArgument};
 use crate::terminal::Terminal;
 use activecell_codegen::{Bundle, Language, Order, Size, generate, long_way};
 use activecell_formats::files;
@@ -27,6 +27,8 @@ struct SizeReport {
 }
 
 pub(crate) fn run(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<()> {
+    let output = &args.output;
+    anyhow::ensure!(!output.exists() || output.is_dir(), "{}: is a file; name a folder", output.display());
     let bundle = made(args, terminal)?;
     // All is there before the first byte is written.
     for file in &bundle.files {
@@ -47,6 +49,9 @@ pub(crate) fn run(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<()
 
 fn made(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<Bundle> {
     let language = args.language.into();
+    if args.fixed_map && language == Language::C {
+        return Err(WrongArgument("--fixed-map is for verilog and vhdl; C has no fabric".into()).into());
+    }
     let Some(map_args) = &args.map else { return Ok(generate(language, None)?) };
     let robot = args.robot.as_deref().map(load::robot).transpose()?;
     let map = load::map(map_args, robot.as_ref(), terminal)?.map;
@@ -89,7 +94,18 @@ fn text(args: &GenerateArgs, bundle: &Bundle) -> String {
         before = size.part;
     }
     if bundle.files.iter().any(|file| file.path == "Makefile") {
-        text += &format!("next: make -C {folder} sim; {folder}/README.md tells the rest\n");
+        let quoted = quoted(&folder.to_string());
+        text += &format!("next: make -C {quoted} sim; {folder}/README.md tells the rest\n");
     }
     text
+}
+
+/// As one word of a shell.
+fn quoted(text: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
+    if text.chars().all(is_plain) && !text.starts_with('-') {
+        return text.into();
+    }
+    let dot = if text.starts_with('-') { "./" } else { "" };
+    format!("'{dot}{}'", text.replace('\'', "'\\''"))
 }

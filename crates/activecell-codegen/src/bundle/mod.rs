@@ -1,5 +1,6 @@
 //! Everything for one robot on one map, in one language: sources, test benches, README, Makefile, and what it takes.
 
+mod makefile;
 mod readme;
 mod size;
 
@@ -8,7 +9,7 @@ pub use size::Size;
 use crate::logic::Circuit;
 use crate::model::player::{Segment, segments};
 use crate::{SourceFile, c, circuits, verilog, vhdl};
-use activecell::{Cell, Error, Lattice, Map, Robot};
+use activecell::{Cell, Dir, Error, Lattice, Map, Robot};
 
 /// What the navigator is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,41 +77,103 @@ pub struct Bundle {
 /// ```
 pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle, Error> {
     let Some(order) = order else {
-        return Ok(finished(language, None, rules(language), Vec::new(), Vec::new()));
+        return Ok(Parts { files: rules(language), ..Parts::default() }.bundled(language, None));
     };
-    let program = program(order)?;
-    let mut notes = Vec::new();
-    let fabric = with_fabric(language, order.map, &mut notes);
-    let files = parts(language, order, &program, fabric)?;
-    let sizes = size::sizes(language, order.map, &program, fabric.then_some(order.fixed_map))?;
-    Ok(finished(language, Some(order), files, sizes, notes))
+    let (program, facing) = program(order)?;
+    let facing = facing.map(|dir| order.map.lattice().dir_name(dir));
+    let parts = if language == Language::C {
+        let files = c::firmware(order.map, Some(&program))?;
+        Parts { files, sizes: size::firmware(order.map, &program), facing, ..Parts::default() }
+    } else {
+        let mut notes = Vec::new();
+        let designs = designs(language, order, &program, &mut notes)?;
+        let mut files: Vec<SourceFile> =
+            designs.iter().flat_map(|design| design.files.iter().cloned()).collect();
+        // Some modules serve several designs.
+        files.sort_by(|a, b| a.path.cmp(&b.path));
+        files.dedup();
+        let sizes = designs.iter().flat_map(|design| design.sizes.iter().copied()).collect();
+        Parts { files, sizes, notes, designs, facing }
+    };
+    Ok(parts.bundled(language, Some(order)))
 }
 
-/// With the README and the Makefile.
-fn finished(
-    language: Language,
-    order: Option<&Order<'_>>,
-    mut files: Vec<SourceFile>,
+/// All but README and Makefile.
+#[derive(Default)]
+struct Parts {
+    files: Vec<SourceFile>,
     sizes: Vec<Size>,
     notes: Vec<String>,
-) -> Bundle {
-    let readme = readme::readme(language, order, &files, &sizes);
-    let makefile = order.map(|order| readme::makefile(language, order, &files));
-    files.splice(0..0, std::iter::once(readme).chain(makefile));
-    Bundle { files, sizes, notes }
+    designs: Vec<Design>,
+    /// Where the robot faces at the start of the program.
+    facing: Option<&'static str>,
 }
 
-/// Whether the fabric is among the parts.
-fn with_fabric(language: Language, map: &Map, notes: &mut Vec<String>) -> bool {
-    let cells = map.cells() as u64;
-    let fits = cells <= verilog::MAX_FABRIC_CELLS;
-    if language != Language::C && !fits {
+impl Parts {
+    /// With the Makefile and the README; they come last, so that a folder that has them is whole.
+    fn bundled(self, language: Language, order: Option<&Order<'_>>) -> Bundle {
+        let readme = readme::readme(language, order, &self);
+        let makefile = order.map(|_| makefile::makefile(language, &self.designs));
+        let files = self.files.into_iter().chain(makefile).chain([readme]).collect();
+        Bundle { files, sizes: self.sizes, notes: self.notes }
+    }
+}
+
+/// A part of the hardware that stands alone.
+struct Design {
+    /// Its name, and that of its test bench before `_tb`.
+    name: &'static str,
+    /// The module on top.
+    top: String,
+    files: Vec<SourceFile>,
+    sizes: Vec<Size>,
+}
+
+fn designs(
+    language: Language,
+    order: &Order<'_>,
+    program: &[Segment],
+    notes: &mut Vec<String>,
+) -> Result<Vec<Design>, Error> {
+    let &Order { map, fixed_map, .. } = order;
+    let is_vhdl = language == Language::Vhdl;
+    let mut designs = vec![
+        Design {
+            name: "windowed",
+            top: format!("windowed_{}", map.lattice()),
+            files: if is_vhdl { vhdl::windowed(map)? } else { verilog::windowed(map)? },
+            sizes: size::windowed(map)?,
+        },
+        Design {
+            name: "player",
+            top: "player_top".into(),
+            files: if is_vhdl { vhdl::player(program)? } else { verilog::player(program)? },
+            sizes: size::player(program)?,
+        },
+    ];
+    let (cells, most) = (map.cells() as u64, verilog::MAX_FABRIC_CELLS);
+    if cells <= most {
+        designs.push(Design {
+            name: "fabric",
+            top: "fabric".into(),
+            files: if is_vhdl { vhdl::fabric(map, !fixed_map)? } else { verilog::fabric(map, !fixed_map)? },
+            sizes: size::fabric(map, fixed_map),
+        });
+    } else {
         notes.push(format!(
-            "the fabric is left out: it has a small automaton a cell, at most {} of them, and the map has {cells} cells; larger cells (--cell) make fewer",
-            verilog::MAX_FABRIC_CELLS
+            "the fabric is left out: it has a small automaton a cell, at most {most} of them, and the map has {cells} \
+             cells; larger cells (--cell) make fewer"
         ));
     }
-    language != Language::C && fits
+    let too_large: Vec<&str> =
+        designs.iter().filter(|design| !size::fits_hx8k(&design.sizes)).map(|design| design.name).collect();
+    if !too_large.is_empty() {
+        notes.push(format!(
+            "larger than an iCE40 HX8K, for which `make synth` places: {}",
+            too_large.join(", ")
+        ));
+    }
+    Ok(designs)
 }
 
 /// Two cells of the map's largest region that are far from each other: the farthest cell from its first one, and the
@@ -129,45 +192,22 @@ pub fn long_way(map: &Map) -> Result<(Cell, Cell), Error> {
     let first = region.first().copied().ok_or(Error::BadValue {
         name: "the number of free cells",
         value: 0.0,
-        allowed: "at least 1",
+        allowed: "at least 1: the map has obstacles only",
     })?;
     let from = farthest(first)?;
     Ok((from, farthest(from)?))
 }
 
-/// The program M of the order, in ticks.
-fn program(order: &Order<'_>) -> Result<Vec<Segment>, Error> {
+/// The program M of the order, in ticks, and where the robot faces at its start.
+fn program(order: &Order<'_>) -> Result<(Vec<Segment>, Option<Dir>), Error> {
     let &Order { map, from, to, robot, .. } = order;
     map.check_task(from, to)?;
     let field = map.wave(to)?;
     if field.steps(from).is_none() {
         return Err(Error::Unreachable { from, to });
     }
-    segments(&field.route(from).program(robot, map, None), robot, map.lattice())
-}
-
-fn parts(
-    language: Language,
-    order: &Order<'_>,
-    program: &[Segment],
-    fabric: bool,
-) -> Result<Vec<SourceFile>, Error> {
-    let &Order { map, fixed_map, .. } = order;
-    let mut files = match language {
-        Language::C => c::firmware(map, Some(program))?,
-        Language::Verilog => [verilog::windowed(map)?, verilog::player(program)?].concat(),
-        Language::Vhdl => [vhdl::windowed(map)?, vhdl::player(program)?].concat(),
-    };
-    if fabric {
-        files.extend(match language {
-            Language::Vhdl => vhdl::fabric(map, !fixed_map)?,
-            _ => verilog::fabric(map, !fixed_map)?,
-        });
-    }
-    // Some modules serve several parts.
-    files.sort_by(|a, b| a.path.cmp(&b.path));
-    files.dedup();
-    Ok(files)
+    let program = field.route(from).program(robot, map, None);
+    Ok((segments(&program, robot, map.lattice())?, program.heading))
 }
 
 /// The rule and the control unit alone.

