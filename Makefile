@@ -5,7 +5,8 @@
 # make docs    the pictures of the documents, drawn anew
 # make bench   every method beside its peers, 20 minutes (QUICK=1: a few); writes docs/benchmarks.md
 # make bench-fleet  groups of robots for 30 s an instance, 15 minutes (QUICK=1: 1); writes docs/benchmarks-fleet.md
-# make hardware  LUTs, clocks, code sizes and instructions of what is generated, 15 minutes (QUICK=1: 2); writes docs/hardware.md
+# make hardware  LUTs, clocks, code sizes and instructions of what is generated, an hour (QUICK=1: 3 minutes; PARTS="player
+#                firmware": these alone); writes docs/hardware.md
 # make count   instruction counts of the hot loops against those kept (UPDATE=1 keeps the new ones)
 # make clean   remove everything that was built
 
@@ -86,7 +87,7 @@ bench-fleet:
 	@QUICK=$(QUICK) bench/run.sh fleet
 
 hardware: tools .venv/place-and-route-done
-	@QUICK=$(QUICK) .venv/bin/python hardware/measure.py
+	@QUICK=$(QUICK) .venv/bin/python hardware/measure.py $(PARTS)
 
 .venv/place-and-route-done: hardware/requirements-place-and-route.txt | .venv/tools-done
 	@echo "installing place and route into .venv (400 MB) …"
