@@ -5,7 +5,7 @@ mod common;
 use activecell::{Lattice, Map, Rng};
 use activecell_codegen::logic::Circuit;
 use activecell_codegen::model::player::{Motion, Segment};
-use activecell_codegen::{SourceFile, circuits, verilog, vhdl};
+use activecell_codegen::{Language, SourceFile, circuits, generate, verilog, vhdl};
 use std::path::{Path, PathBuf};
 
 /// Every circuit that is written out.
@@ -69,12 +69,30 @@ fn vhdl_equals_verilog_for_every_input() {
     }
 }
 
+/// What `generate` writes without a map: the entities of both lattices, in an order in which they can be analysed.
+#[test]
+fn the_rule_alone_is_analysed() {
+    let Some([ghdl]) = common::programs("the_rule_alone_is_analysed", ["ghdl"]) else { return };
+    let folder = common::folder("vhdl_rules");
+    let files = generate(Language::Vhdl, None).unwrap().files;
+    common::write(&folder, &files);
+    let sources: Vec<&str> = sources(&files).collect();
+    assert_eq!(sources.len(), 6, "{sources:?}");
+    let said = common::run(common::command(&ghdl, &folder).args(["-a", "--std=93"]).args(&sources));
+    assert_eq!(said, "");
+    println!("{} files of the rule alone: GHDL takes them in their order", sources.len());
+}
+
+/// The sources among the files, in their order.
+fn sources(files: &[SourceFile]) -> impl Iterator<Item = &str> {
+    files.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with(".vhd"))
+}
+
 /// Whether a test bench passes under GHDL.
 fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool {
     common::write(folder, files);
-    let sources = files.iter().map(|file| file.path.as_str()).filter(|path| path.contains(".vhd"));
     let steps: [Vec<&str>; 2] = [
-        ["-a", "--std=93"].into_iter().chain(sources).collect(),
+        ["-a", "--std=93"].into_iter().chain(sources(files)).collect(),
         vec!["--elab-run", "--std=93", bench, "--ieee-asserts=disable-at-0"],
     ];
     let [analysed, said] = steps.map(|step| {
