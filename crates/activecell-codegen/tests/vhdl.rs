@@ -113,8 +113,9 @@ fn the_players_test_bench_passes_and_finds_faults() {
     };
     let mut rng = Rng::new(1);
     let folder = common::folder("vhdl_player");
-    for case in [0, 1, 3, 6, 9] {
-        let longest = 1 + rng.below(300);
+    for case in [0, 1, 3, 6, 9, 5] {
+        // The last program is longer than a simulation could wait for.
+        let longest = if case == 5 { u32::MAX } else { 1 + rng.below(300) };
         let segment = |rng: &mut Rng| Segment {
             motion: Motion::ALL[rng.below(4) as usize],
             ticks: 1 + rng.below(longest),
@@ -123,11 +124,14 @@ fn the_players_test_bench_passes_and_finds_faults() {
         let mut files = vhdl::player(&segments).unwrap();
         assert!(passes(&ghdl, &folder, &files, "player_tb"));
         let trace = files.last_mut().unwrap();
+        // Behind the last segment: the number of it, done, calm.
+        let end = format!("_{:04x}_1_1_", segments.len());
+        assert!(trace.text.lines().last().unwrap().contains(&end), "{}", trace.text);
         let place = trace.text.len() - 5; // q3 to q0 of the last line
         trace.text.replace_range(place..=place, "2");
         assert!(!passes(&ghdl, &folder, &files, "player_tb"));
     }
-    println!("5 programs: the test bench in VHDL passes, and fails if the last line is wrong");
+    println!("6 programs: the test bench in VHDL passes, and fails if the last line is wrong");
 }
 
 #[test]
