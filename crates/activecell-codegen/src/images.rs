@@ -2,7 +2,7 @@
 
 use crate::SourceFile;
 use crate::model::player::{Motion, OBSTACLES, Segment};
-use crate::model::player_trace::{Stretch, trace};
+use crate::model::player_trace::{Stretch, Trace, trace};
 use activecell::Error;
 
 /// Segments that a player's numbers of 16 bits can count.
@@ -82,11 +82,29 @@ const fn bits(number: u32) -> u32 {
     if bits == 0 { 1 } else { bits }
 }
 
-/// What the player does on a rough drive, and how many lines that are: a stretch a line, as `player_tb` reads it.
-pub(crate) fn player_trace(segments: &[Segment]) -> (SourceFile, usize) {
-    let stretches = trace(segments, 1);
-    let text = stretches.iter().map(line).collect::<String>();
-    (SourceFile::new("tb/player.hex", text), stretches.len())
+/// What `player_tb` is filled in with.
+pub(crate) struct PlayerBench {
+    /// What the player does on a rough drive: a stretch a line.
+    pub(crate) hex: SourceFile,
+    /// How many lines that are.
+    pub(crate) lines: usize,
+    /// The player's parameter.
+    pub(crate) ticks_max: u32,
+    /// What is said of it.
+    pub(crate) about: String,
+}
+
+impl PlayerBench {
+    /// For a program.
+    pub(crate) fn of(segments: &[Segment]) -> Self {
+        let Trace { ticks_max, stretches } = trace(segments, 1);
+        let about = match ticks_max {
+            0 => "every segment lasts all its ticks".to_owned(),
+            most => format!("the simulation shortens segments to {most} ticks"),
+        };
+        let text = stretches.iter().map(line).collect::<String>();
+        Self { hex: SourceFile::new("tb/player.hex", text), lines: stretches.len(), ticks_max, about }
+    }
 }
 
 /// 16 digits: clocks, segment, done, q3 to q0, then go, tick and the obstacles.

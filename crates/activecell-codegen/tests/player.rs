@@ -5,7 +5,7 @@ mod common;
 use activecell::control::Inputs;
 use activecell::{Cell, Dir, Drive, Lattice, Map, Rng, Robot, Rule};
 use activecell_codegen::model::player::{Motion, Player, Segment, Senses, segments};
-use activecell_codegen::verilog;
+use activecell_codegen::{SourceFile, verilog};
 use common::cxxrtl::Simulation;
 use common::formal;
 
@@ -234,6 +234,22 @@ fn it_never_drives_at_obstacles_nor_after_the_end() {
     println!("proven for every program of seven segments; {} wrong players refuted", mutants.len());
 }
 
+/// Ticks of a segment that no simulation could wait for.
+const LONG: u32 = 3_000_000_000;
+
+/// The test bench also says where the player itself is when the bench ends.
+fn must_end(files: &mut [SourceFile]) {
+    let image = files.iter().find(|file| file.path == "rtl/player.hex").expect("the program");
+    assert!(image.text.contains("3000000000 ticks"), "the chip counts all ticks");
+    let bench = files.iter_mut().find(|file| file.path == "tb/player_tb.v").expect("the test bench");
+    let end = "        $finish;";
+    assert!(bench.text.contains(end));
+    bench.text = bench.text.replace(
+        end,
+        &format!("        if (done && q == 4'b0001) $display(\"ended after %0d segments\", segment);\n{end}"),
+    );
+}
+
 /// The test bench as it is shipped passes, and fails if what it expects is wrong.
 #[test]
 fn the_test_bench_passes_and_finds_faults() {
@@ -249,9 +265,13 @@ fn the_test_bench_passes_and_finds_faults() {
         let segments = match case {
             0 => Vec::new(),
             1 => vec![Segment { motion: Motion::Reverse, ticks: 100_000 }],
+            3 => Motion::ALL.repeat(3).into_iter().map(|motion| Segment { motion, ticks: LONG }).collect(),
             _ => program(&mut rng),
         };
         let mut files = verilog::player(&segments).unwrap();
+        if case == 3 {
+            must_end(&mut files);
+        }
         let is_wrong = case % 3 == 2;
         if is_wrong {
             let trace = files.last_mut().unwrap();
@@ -274,6 +294,7 @@ fn the_test_bench_passes_and_finds_faults() {
         assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
         let said = common::run(common::command(&vvp, &folder).arg("bench"));
         assert_eq!(said.contains("FAIL player"), is_wrong, "{said}");
+        assert_eq!(said.contains("ended after 12 segments"), case == 3, "{said}");
         assert_eq!(said.contains("PASS player"), !is_wrong, "{said}");
         clocks += said.split_whitespace().find_map(|word| word.parse::<usize>().ok()).unwrap_or(0);
     }

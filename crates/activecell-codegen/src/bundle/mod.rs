@@ -219,5 +219,7 @@ fn rules(language: Language) -> Vec<SourceFile> {
         Language::Verilog => SourceFile::new(format!("rtl/{}.v", circuit.name), verilog::module(&circuit)),
         Language::Vhdl => SourceFile::new(format!("rtl/{}.vhd", circuit.name), vhdl::entity(&circuit)),
     };
-    both.chain([circuits::control()]).map(file).collect()
+    // What the entities of the rule use is analysed first.
+    let shared = (language == Language::Vhdl).then(vhdl::lanes);
+    shared.into_iter().chain(both.chain([circuits::control()]).map(file)).collect()
 }

@@ -1,7 +1,7 @@
 //! The control unit with its state, and the program player around it.
 
 use super::module;
-use crate::images::{ProgramImage, player_trace};
+use crate::images::{PlayerBench, ProgramImage};
 use crate::model::player::Segment;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
@@ -39,12 +39,14 @@ pub fn control_unit() -> Vec<SourceFile> {
 /// ```
 pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
     let image = ProgramImage::of(segments)?;
-    let (trace, lines) = player_trace(segments);
+    let bench = PlayerBench::of(segments);
     let values = [
         ("SEGMENTS", image.segments.to_string()),
         ("SEGMENT_BITS", image.segment_bits.to_string()),
         ("TICK_BITS", image.tick_bits.to_string()),
-        ("LINES", lines.to_string()),
+        ("LINES", bench.lines.to_string()),
+        ("TICKS_MAX", bench.ticks_max.to_string()),
+        ("ABOUT_TICKS", bench.about),
     ];
     let values = values.each_ref().map(|(name, value)| (*name, value.as_str()));
     let mut files = control_unit();
@@ -55,7 +57,7 @@ pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
         image.hex(),
         SourceFile::new("rtl/player_top.v", include_str!("templates/player_top.v")),
         SourceFile::new("tb/player_tb.v", fill(include_str!("templates/player_tb.v"), &values)),
-        trace,
+        bench.hex,
     ]);
     Ok(files)
 }

@@ -1,7 +1,7 @@
 //! The control unit with its state, and the program player around it.
 
 use super::{bench_lines, entity, lanes};
-use crate::images::{ProgramImage, player_trace};
+use crate::images::{PlayerBench, ProgramImage};
 use crate::model::player::Segment;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
@@ -42,7 +42,9 @@ pub fn control_unit() -> Vec<SourceFile> {
 /// ```
 pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
     let image = ProgramImage::of(segments)?;
-    let (trace, _) = player_trace(segments);
+    let bench = PlayerBench::of(segments);
+    let ticks_max = bench.ticks_max.to_string();
+    let bench_values = [("TICKS_MAX", ticks_max.as_str()), ("ABOUT_TICKS", &bench.about)];
     let mut files = control_unit();
     files.extend([
         SourceFile::new("rtl/player_inputs.vhd", entity(&circuits::player())),
@@ -51,8 +53,8 @@ pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
         SourceFile::new("rtl/player.vhd", include_str!("templates/player.vhd")),
         SourceFile::new("rtl/player_top.vhd", include_str!("templates/player_top.vhd")),
         bench_lines(),
-        SourceFile::new("tb/player_tb.vhd", include_str!("templates/player_tb.vhd")),
-        trace,
+        SourceFile::new("tb/player_tb.vhd", fill(include_str!("templates/player_tb.vhd"), &bench_values)),
+        bench.hex,
     ]);
     Ok(files)
 }

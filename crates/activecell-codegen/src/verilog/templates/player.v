@@ -4,6 +4,11 @@
 //     memory -> motion of the segment -> player_inputs -> control_unit -> motors
 //       ^---- next segment <- ticks counted <- encoder
 //
+// M begins where the robot stands at reset, facing along its first run: place it so. A tick is one of the
+// mean of both wheels: with an encoder on each, every second pulse of the two. A steered robot does not
+// roll where it turns: in its turns a tick is a pulse of the steering, one for each step of the lattice
+// (90 degrees on squares, 60 on hexagons).
+//
 // M lies in a read-only memory, a segment (a straight run or a turn) a word: the motion and how many
 // ticks it lasts.
 // - Every tick counts until the program has ended, also while the robot waits: what it rolls on when it
@@ -15,7 +20,8 @@ module player #(
     parameter SEGMENTS     = @SEGMENTS@, // segments of the program
     parameter SEGMENT_BITS = @SEGMENT_BITS@, // enough for SEGMENTS
     parameter TICK_BITS    = @TICK_BITS@, // enough for the ticks of every segment
-    parameter IMAGE        = "rtl/player.hex" // a word for each segment, and one for the end
+    parameter IMAGE        = "rtl/player.hex", // a word for each segment, and one for the end
+    parameter [31:0] TICKS_MAX = 0 // for simulations: unless 0, segments of more ticks end after these
 ) (
     input  wire                    clk,
     input  wire                    reset,     // to the beginning of the program; for a clock at least
@@ -37,7 +43,8 @@ module player #(
     reg  [SEGMENT_BITS-1:0] number;
     wire [SEGMENT_BITS-1:0] next_number;
     wire [1:0]              motion = word[TICK_BITS+1:TICK_BITS];
-    wire [TICK_BITS-1:0]    ticks  = word[TICK_BITS-1:0];
+    wire [TICK_BITS-1:0]    whole  = word[TICK_BITS-1:0];
+    wire [TICK_BITS-1:0]    ticks  = TICKS_MAX != 0 && whole > TICKS_MAX ? TICKS_MAX[TICK_BITS-1:0] : whole;
 
     initial $readmemh(IMAGE, words);
 

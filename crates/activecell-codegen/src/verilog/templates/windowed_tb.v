@@ -57,7 +57,7 @@ module windowed_tb;
             @(negedge clk);
         end
         if (n == CLOCKS)
-            $display("PASS windowed_@LATTICE@: @TASKS@ tasks, %0d clocks as in Rust", CLOCKS);
+            $display("PASS windowed_@LATTICE@: @TASKS@ tasks, %0d clocks as in the model", CLOCKS);
         $finish;
     end
 endmodule

@@ -63,7 +63,7 @@ begin
                 severity failure;
         end loop;
         ended <= true;
-        report "PASS fabric: " & integer'image(clocks) & " clocks as in Rust";
+        report "PASS fabric: " & integer'image(clocks) & " clocks as in the model";
         wait;
     end process check;
 end architecture test;

@@ -4,6 +4,11 @@
 --     memory -> motion of the segment -> player_inputs -> control_unit -> motors
 --       ^---- next segment <- ticks counted <- encoder
 --
+-- M begins where the robot stands at reset, facing along its first run: place it so. A tick is one of the
+-- mean of both wheels: with an encoder on each, every second pulse of the two. A steered robot does not
+-- roll where it turns: in its turns a tick is a pulse of the steering, one for each step of the lattice
+-- (90 degrees on squares, 60 on hexagons).
+--
 -- M lies in a read-only memory (the package player_program), a segment (a straight run or a turn) a
 -- word: the motion and how many ticks it lasts.
 -- - Every tick counts until the program has ended, also while the robot waits: what it rolls on when it
@@ -17,6 +22,9 @@ use ieee.numeric_std.all;
 use work.player_program.all;
 
 entity player is
+    generic (
+        TICKS_MAX : natural := 0 -- for simulations: unless 0, segments of more ticks end after these
+    );
     port (
         clk       : in  std_logic;
         reset     : in  std_logic;                    -- to the beginning of the program; for a clock at least
@@ -40,7 +48,8 @@ architecture rtl of player is
     signal number      : unsigned(SEGMENT_BITS - 1 downto 0) := (others => '0');
     signal next_number : unsigned(SEGMENT_BITS - 1 downto 0);
     signal motion      : std_logic_vector(1 downto 0);
-    signal ticks       : std_logic_vector(TICK_BITS - 1 downto 0);
+    signal whole       : unsigned(TICK_BITS - 1 downto 0);
+    signal ticks       : unsigned(TICK_BITS - 1 downto 0);
     signal is_end      : std_logic;
 
     -- The number, in its segment, of the tick that comes next, from 1.
@@ -51,13 +60,14 @@ architecture rtl of player is
 begin
     is_end <= word(TICK_BITS + 2);
     motion <= word(TICK_BITS + 1 downto TICK_BITS);
-    ticks  <= word(TICK_BITS - 1 downto 0);
+    whole  <= unsigned(word(TICK_BITS - 1 downto 0));
+    ticks  <= to_unsigned(TICKS_MAX, TICK_BITS) when TICKS_MAX > 0 and whole > TICKS_MAX else whole;
 
     done    <= is_end;
     turning <= motion(1) and not is_end;
     segment <= std_logic_vector(number);
 
-    is_last     <= tick and not is_end when std_logic_vector(count) = ticks else '0';
+    is_last     <= tick and not is_end when count = ticks else '0';
     next_number <= (others => '0') when reset = '1' else number + 1 when is_last = '1' else number;
 
     fetch : process (clk)

@@ -73,7 +73,7 @@ begin
             wait until falling_edge(clk);
         end loop;
         ended <= true;
-        report "PASS windowed_@LATTICE@: " & integer'image(clocks) & " clocks as in Rust";
+        report "PASS windowed_@LATTICE@: " & integer'image(clocks) & " clocks as in the model";
         wait;
     end process check;
 end architecture test;
