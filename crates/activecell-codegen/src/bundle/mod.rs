@@ -174,10 +174,14 @@ fn parts(
 fn rules(language: Language) -> Vec<SourceFile> {
     let both =
         Lattice::ALL.iter().flat_map(|&lattice| [circuits::sector(lattice), circuits::decision(lattice)]);
-    let file = |circuit: Circuit| match language {
-        Language::C => SourceFile::new(format!("include/ac_{}.h", circuit.name), c::header(&circuit)),
-        Language::Verilog => SourceFile::new(format!("rtl/{}.v", circuit.name), verilog::module(&circuit)),
-        Language::Vhdl => SourceFile::new(format!("rtl/{}.vhd", circuit.name), vhdl::entity(&circuit)),
+    let circuits: Vec<Circuit> = both.chain([circuits::control()]).collect();
+    let files = |ending: &str, print: fn(&Circuit) -> String| {
+        let path = |circuit: &Circuit| format!("rtl/{}.{ending}", circuit.name);
+        circuits.iter().map(|circuit| SourceFile::new(path(circuit), print(circuit))).collect()
     };
-    both.chain([circuits::control()]).map(file).collect()
+    match language {
+        Language::C => c::headers(&circuits),
+        Language::Verilog => files("v", verilog::module),
+        Language::Vhdl => files("vhd", vhdl::entity),
+    }
 }
