@@ -214,12 +214,15 @@ fn program(order: &Order<'_>) -> Result<(Vec<Segment>, Option<Dir>), Error> {
 fn rules(language: Language) -> Vec<SourceFile> {
     let both =
         Lattice::ALL.iter().flat_map(|&lattice| [circuits::sector(lattice), circuits::decision(lattice)]);
-    let file = |circuit: Circuit| match language {
-        Language::C => SourceFile::new(format!("include/ac_{}.h", circuit.name), c::header(&circuit)),
-        Language::Verilog => SourceFile::new(format!("rtl/{}.v", circuit.name), verilog::module(&circuit)),
-        Language::Vhdl => SourceFile::new(format!("rtl/{}.vhd", circuit.name), vhdl::entity(&circuit)),
+    let circuits: Vec<Circuit> = both.chain([circuits::control()]).collect();
+    let files = |ending: &str, print: fn(&Circuit) -> String| {
+        let path = |circuit: &Circuit| format!("rtl/{}.{ending}", circuit.name);
+        circuits.iter().map(|circuit| SourceFile::new(path(circuit), print(circuit))).collect::<Vec<_>>()
     };
-    // What the entities of the rule use is analysed first.
-    let shared = (language == Language::Vhdl).then(vhdl::lanes);
-    shared.into_iter().chain(both.chain([circuits::control()]).map(file)).collect()
+    match language {
+        Language::C => c::headers(&circuits),
+        Language::Verilog => files("v", verilog::module),
+        // What the entities use is analysed first.
+        Language::Vhdl => [vec![vhdl::lanes()], files("vhd", vhdl::entity)].concat(),
+    }
 }

@@ -4,5 +4,5 @@ mod circuit;
 mod firmware;
 mod lattice;
 
-pub use circuit::{function, header};
+pub use circuit::{function, header, headers};
 pub use firmware::{Footprint, firmware, footprint, rows};

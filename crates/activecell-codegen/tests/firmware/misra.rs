@@ -3,6 +3,7 @@
 use crate::{STRICT, common, sources, warehouse, written};
 use activecell::Lattice;
 use activecell_codegen::model::player::{Motion, Segment};
+use activecell_codegen::{Language, generate};
 use std::collections::BTreeSet;
 
 /// Advisory rules that the firmware does not follow, and why.
@@ -56,6 +57,33 @@ fn programs_in_other_standards_can_include_the_header() {
     for standard in ["-std=c11", "-std=c17", "-std=gnu99"] {
         let strict = STRICT.map(|flag| if flag == "-std=c99" { standard } else { flag });
         common::run(common::command(&gcc, &folder).args(strict).arg("-c").args(sources(&folder)));
+    }
+}
+
+/// Without a map: the headers of the rule, each alone and all in one file, in C and in C++.
+#[test]
+fn headers_of_the_rule_alone_are_compiled_without_a_warning() {
+    let folder = common::folder("headers");
+    let files = generate(Language::C, None).unwrap().files;
+    common::write(&folder, &files);
+    let headers: Vec<&str> = files.iter().filter_map(|file| file.path.strip_prefix("include/")).collect();
+    assert_eq!(headers.len(), 6, "{headers:?}");
+    for file in files.iter().filter(|file| file.path.ends_with(".h")) {
+        assert!(file.text.starts_with("/*\n * "), "{}: the first comment says what it is", file.path);
+    }
+    let include =
+        |names: &[&str]| names.iter().map(|name| format!("#include \"{name}\"\n")).collect::<String>();
+    let mut users: Vec<String> = headers.iter().map(|&name| include(&[name])).collect();
+    users.push(include(&headers));
+    let cpp = ["-std=c++11", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror", "-Iinclude"];
+    for (compiler, flags, ending) in [("gcc", &STRICT[..], "c"), ("g++", &cpp[..], "cpp")] {
+        let Some([compiler]) = common::programs("headers_of_the_rule_alone", [compiler]) else { continue };
+        for text in &users {
+            let name = format!("user.{ending}");
+            std::fs::write(folder.join(&name), text).unwrap();
+            common::run(common::command(&compiler, &folder).args(flags).args(["-c", &name]));
+        }
+        println!("{}: {} headers, each alone and together", compiler.display(), headers.len());
     }
 }
 
