@@ -184,6 +184,31 @@ fn becomes_gates([ghdl, yosys]: &[PathBuf; 2], folder: &Path, files: &[SourceFil
     common::yosys(yosys, folder, &script);
 }
 
+/// GHDL keeps the banks of every map as memories, and yosys puts them into block RAM by what the banks' comment says.
+#[test]
+fn maps_of_every_size_become_block_ram() {
+    let test = "maps_of_every_size_become_block_ram";
+    let Some([ghdl, yosys]) = common::programs(test, ["ghdl", "yosys"]) else { return };
+    let folder = common::folder("vhdl_block_ram");
+    for (lattice, width, height) in [(Lattice::Square, 8, 8), (Lattice::Hex, 40, 24)] {
+        let map = Map::random(lattice, width, height, 0.2, 1).unwrap();
+        let files = vhdl::windowed(&map).unwrap();
+        common::write(&folder, &files);
+        let bank = files.iter().find(|file| file.path == "rtl/map_bank.vhd").expect("a bank");
+        let told = bank.text.lines().find_map(|line| line.strip_prefix("--     ")).expect("a command");
+        let sources = sources(&files).filter(|path| path.starts_with("rtl"));
+        let mut synth = common::command(&ghdl, &folder);
+        synth.args(["--synth", "--std=93", "--out=verilog"]).args(sources).args(["-e", "map_window"]);
+        std::fs::write(folder.join("netlist.v"), common::run(&mut synth)).expect("the folder can be written");
+        let script = format!(
+            "read_verilog netlist.v; {told}; proc; opt_clean; memory -nomap; \
+             memory_libmap -lib +/ice40/brams.txt; select -assert-count 16 t:$__ICE40_RAM4K_"
+        );
+        common::yosys(&yosys, &folder, &script);
+        println!("{width} x {height} {lattice}: 16 block RAMs from VHDL");
+    }
+}
+
 #[test]
 fn every_navigator_becomes_gates() {
     let Some(tools) = common::programs("every_navigator_becomes_gates", ["ghdl", "yosys"]) else { return };
