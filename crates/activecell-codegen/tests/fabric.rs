@@ -12,8 +12,7 @@ use std::path::PathBuf;
 
 const INPUTS: [&str; 8] =
     ["reset", "load_map", "scan_in", "begin_task", "start_x", "start_y", "target_x", "target_y"];
-const OUTPUTS: [&str; 9] =
-    ["busy", "moving", "at_x", "at_y", "arrived", "unreachable", "reached", "active", "pointer"];
+const OUTPUTS: [&str; 6] = ["busy", "moving", "at_x", "at_y", "arrived", "unreachable"];
 
 /// The generated fabric beside its model: both are given the same, and must show the same after every clock.
 struct Pair {
@@ -28,9 +27,17 @@ struct Pair {
 impl Pair {
     fn new(test: &str, map: &Map, loadable: bool) -> Option<Self> {
         let files = verilog::fabric(map, loadable).unwrap();
-        let gates = aig(test, &files, "fabric", &OUTPUTS[6..])?;
+        // The wires of every cell, by patterns of their names: `row[2].column[1].reached`, or the like.
+        let wires = [r"row*\].reached", r"row*\].active", r"row*\].inside.pointer"];
+        let gates = aig(test, &files, "fabric", &wires)?;
         let inputs = INPUTS.map(|name| gates.port(name)).to_vec();
-        let outputs = OUTPUTS.iter().flat_map(|name| gates.port(name)).collect();
+        let mut outputs: Vec<usize> = OUTPUTS.iter().flat_map(|name| gates.port(name)).collect();
+        for wire in ["reached", "active", "inside.pointer"] {
+            // From 1: row 0 and column 0 are of the frame around the map.
+            for (x, y) in (1..=map.height()).flat_map(|y| (1..=map.width()).map(move |x| (x, y))) {
+                outputs.extend(gates.port(&format!("row[{y}].column[{x}].{wire}")));
+            }
+        }
         let lanes = map.lattice().degree();
         let mut pair = Self { fabric: Fabric::new(map), gates, inputs, outputs, lanes, clocks: 0 };
         // Pointers need no reset: they hold anything before the second clock.
@@ -63,8 +70,7 @@ impl Pair {
             .chain(number(x_bits, shown.at.x))
             .chain(number(y_bits, shown.at.y))
             .chain([shown.arrived, shown.unreachable])
-            // A bit more than cells, for all that lies outside.
-            .chain(self.fabric.reached().chain([false]))
+            .chain(self.fabric.reached())
             .chain(self.fabric.active())
             .chain(self.fabric.pointers().flat_map(lanes));
         assert!(seen.eq(expected), "clock {}: {shown:?}", self.clocks);

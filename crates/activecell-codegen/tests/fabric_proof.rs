@@ -48,7 +48,11 @@ fn mutants_of_the_fabric_are_refuted() {
     let mutants = [
         ("the wave ignores obstacles", "~is_obstacle & ", ""),
         ("a pointer of two lanes", "assign pointer_next = ", "assign pointer_next = reached_around | "),
-        ("a pointer to the neighbour beside", "leaving[4*at(x, y - 1) + 2]", "leaving[4*at(x, y - 1) + 1]"),
+        (
+            "a pointer to the neighbour beside",
+            "row[y - 1].column[x].leaving[2]",
+            "row[y - 1].column[x].leaving[1]",
+        ),
         ("a start that never ceases", "assign is_front = reached & was_waiting", "assign is_front = reached"),
         ("a robot that stays", "assign active_next = ", "assign active_next = is_start | "),
     ];

@@ -78,13 +78,11 @@ fn top(map: &Map, loadable: bool) -> String {
     let odd = match lattice {
         Lattice::Square => "",
         Lattice::Hex => {
-            "                localparam ODD = y % 2; // odd rows are shifted right by half a cell\n"
+            "                    localparam ODD = (y - 1) % 2; // odd rows of the map are half a cell further right\n"
         }
     };
-    let reached = lanes(lattice, |neighbour, _| format!("reached[{neighbour}]"));
-    let entering = lanes(lattice, |neighbour, dir| {
-        format!("leaving[{}*{neighbour} + {}]", lattice.degree(), lattice.opposite(dir).0)
-    });
+    let reached = lanes(lattice, |place, _| format!("{place}.reached"));
+    let entering = lanes(lattice, |place, dir| format!("{place}.leaving[{}]", lattice.opposite(dir).0));
     for_lattice(lattice, include_str!("templates/fabric.v"))
         .replace("@MAP_PORTS@", ports)
         .replace("@MAP@\n", &storage)
@@ -113,15 +111,16 @@ fn lanes(lattice: Lattice, wire: impl Fn(&str, Dir) -> String) -> String {
         .rev()
         .map(|dir| {
             let comma = if dir.0 == 0 { "" } else { "," };
-            let wire = wire(&neighbour(lattice, dir), dir) + comma;
-            format!("                    {wire:<40} // {}\n", lattice.dir_name(dir))
+            let [x, y] = neighbour(lattice, dir);
+            let wire = wire(&format!("row[{y}].column[{x}]"), dir) + comma;
+            format!("                        {wire:<42} // {}\n", lattice.dir_name(dir))
         })
         .collect();
     lanes.concat()
 }
 
-/// The number of a neighbour, from the core's offsets in even and odd rows.
-pub(crate) fn neighbour(lattice: Lattice, dir: Dir) -> String {
+/// The column and row of a neighbour of (x, y), from the core's offsets in even and odd rows.
+pub(crate) fn neighbour(lattice: Lattice, dir: Dir) -> [String; 2] {
     let [even, odd] = [0, 1].map(|y| lattice.neighbour(Cell::new(0, y), dir));
     let shift = if odd.x == even.x { "" } else { " + ODD" };
     let offset = |step: i32| match step {
@@ -129,5 +128,5 @@ pub(crate) fn neighbour(lattice: Lattice, dir: Dir) -> String {
         step if step < 0 => format!(" - {}", -step),
         step => format!(" + {step}"),
     };
-    format!("at(x{}{shift}, y{})", offset(even.x), offset(even.y))
+    [format!("x{}{shift}", offset(even.x)), format!("y{}", offset(even.y))]
 }

@@ -6,14 +6,8 @@ use crate::model::fabric::{Fabric, Inputs};
 use crate::template::fill;
 use activecell::{Cell, Map, Rng};
 
-/// Tasks on a map, at most.
+/// Tasks between free cells on a map.
 const TASKS: usize = 20;
-
-/// As many tasks as a simulation does in half a minute: the time of one grows with the square of the cells, each of which
-/// wakes all that look at its row of bits.
-fn tasks(map: &Map) -> usize {
-    (600_000 / (map.cells() * map.cells()).max(1)).clamp(1, TASKS)
-}
 
 /// The bench and its clocks: tasks between free cells, one that cannot be, one cut short; on a loadable fabric the same
 /// on an empty map after that.
@@ -90,7 +84,7 @@ impl Clocks {
         let mut any = || Cell::new(rng.below(map.width()) as i32, rng.below(map.height()) as i32);
         let mut ends = vec![(any(), any())];
         let mut end = || free.get(rng.below(free.len().max(1) as u32) as usize).copied().unwrap_or_default();
-        ends.extend((0..tasks(map)).map(|_| (end(), end())));
+        ends.extend((0..TASKS).map(|_| (end(), end())));
         for (from, to) in ends {
             let mut is_busy = self.begin(from, to);
             while is_busy {

@@ -96,7 +96,8 @@ fn fixed(map: &Map) -> String {
 fn around(name: &str, lattice: Lattice, bit: impl Fn(&str, Dir) -> String) -> String {
     let lanes = lattice.dirs().rev().map(|dir| {
         let end = if dir.0 == 0 { ";" } else { " &" };
-        let bit = bit(&neighbour(lattice, dir), dir) + end;
+        let [x, y] = neighbour(lattice, dir);
+        let bit = bit(&format!("at({x}, {y})"), dir) + end;
         format!("                {bit:<42} -- {}\n", lattice.dir_name(dir))
     });
     format!("            {name} <=\n{}", lanes.collect::<Vec<_>>().concat())

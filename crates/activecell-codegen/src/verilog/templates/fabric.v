@@ -29,22 +29,8 @@ module fabric #(
 );
     localparam CELLS = WIDTH * HEIGHT;
 
-    // The number of a cell in row order; CELLS for all that lies outside, where nothing is ever reached.
-    function integer at(input integer x, input integer y);
-        at = x < 0 || x >= WIDTH || y < 0 || y >= HEIGHT ? CELLS : y * WIDTH + x;
-    endfunction
-
 @MAP@
     wire clear = stop | begin_task;
-
-    // What the cells show each other. Lane j of a cell is bit @DEGREE@ * number + j.
-    wire [CELLS:0]     reached;
-    wire [CELLS-1:0]   active;
-    wire [CELLS-1:0]   is_front;
-    wire [@DEGREE@*CELLS-1:0] pointer;
-    wire [@DEGREE@*CELLS+@TOP@:0] leaving;
-    assign reached[CELLS] = 1'b0;
-    assign leaving[@DEGREE@*CELLS +: @DEGREE@] = @DEGREE@'b0;
 
     // The task, one bit a column and a row: short wires instead of comparisons in every cell.
     reg [WIDTH-1:0]  start_column;
@@ -70,54 +56,67 @@ module fabric #(
         end
 
 `ifdef FORMAL
+    wire [CELLS-1:0] formal_active;
     reg formal_begun = 1'b0; // the first clock is over
     always @(posedge clk)
         formal_begun <= 1'b1;
 `endif
 
+    // The cells, within a frame of places where nothing is ever reached: the map's row 0 is row 1 here, its
+    // column 0 is column 1. Each place has wires of its own, for its neighbours to look at; simulators wake
+    // only these neighbours then, not all that look at a bit of some vector of the whole map.
     genvar x, y;
     generate
-        for (y = 0; y < HEIGHT; y = y + 1) begin : row
-            for (x = 0; x < WIDTH; x = x + 1) begin : column
-                localparam HERE = y * WIDTH + x;
-@ODD@                wire here_is_target = target_column[x] & target_row[y];
-                wire here_is_start = start_column[x] & start_row[y];
-                wire [@TOP@:0] reached_around = {
+        for (y = 0; y < HEIGHT + 2; y = y + 1) begin : row
+            for (x = 0; x < WIDTH + 2; x = x + 1) begin : column
+                wire       reached;
+                wire       is_front;
+                wire       active;
+                wire [@TOP@:0] leaving;
+                if (x == 0 || x > WIDTH || y == 0 || y > HEIGHT) begin : outside
+                    assign {reached, is_front, active, leaving} = 0;
+                end else begin : inside
+                    localparam HERE = (y - 1) * WIDTH + x - 1; // the number of the cell on the map
+@ODD@                    wire here_is_target = target_column[x - 1] & target_row[y - 1];
+                    wire here_is_start = start_column[x - 1] & start_row[y - 1];
+                    wire [@TOP@:0] reached_around = {
 @REACHED@
-                };
-                wire [@TOP@:0] entering = {
+                    };
+                    wire [@TOP@:0] entering = {
 @ENTERING@
-                };
-                fabric_cell_@LATTICE@ cell_here (
-                    .clk(clk),
-                    .clear(clear),
-                    .is_obstacle(obstacles[HERE]),
-                    .is_target(here_is_target),
-                    .is_start(here_is_start),
-                    .reached_around(reached_around),
-                    .entering(entering),
-                    .reached(reached[HERE]),
-                    .is_front(is_front[HERE]),
-                    .pointer(pointer[@DEGREE@*HERE +: @DEGREE@]),
-                    .active(active[HERE]),
-                    .leaving(leaving[@DEGREE@*HERE +: @DEGREE@])
-                );
+                    };
+                    wire [@TOP@:0] pointer;
+                    fabric_cell_@LATTICE@ cell_here (
+                        .clk(clk),
+                        .clear(clear),
+                        .is_obstacle(obstacles[HERE]),
+                        .is_target(here_is_target),
+                        .is_start(here_is_start),
+                        .reached_around(reached_around),
+                        .entering(entering),
+                        .reached(reached),
+                        .is_front(is_front),
+                        .pointer(pointer),
+                        .active(active),
+                        .leaving(leaving)
+                    );
 
 `ifdef FORMAL
-                wire [@TOP@:0] points = pointer[@DEGREE@*HERE +: @DEGREE@];
-                always @*
-                    if (formal_begun) begin
-                        // The wave never enters an obstacle, the robot goes where the wave has been.
-                        assert (!(reached[HERE] && obstacles[HERE]));
-                        assert (!active[HERE] || reached[HERE]);
-                        // A pointer leads to a cell that the wave has reached; only the target has none.
-                        assert (!reached[HERE] || (points & ~reached_around) == 0);
-                        assert (!reached[HERE] || (points & (points - 1)) == 0);
-                        assert (!reached[HERE] || points != 0 || here_is_target);
-                        // The start makes the active bit once: afterwards it is reached for good.
-                        assert (!here_is_start || active == 0 || (reached[HERE] && !is_front[HERE]));
-                    end
+                    assign formal_active[HERE] = active;
+                    always @*
+                        if (formal_begun) begin
+                            // The wave never enters an obstacle, the robot goes where the wave has been.
+                            assert (!(reached && obstacles[HERE]));
+                            assert (!active || reached);
+                            // A pointer leads to a cell that the wave has reached; only the target has none.
+                            assert (!reached || (pointer & ~reached_around) == 0);
+                            assert (!reached || (pointer & (pointer - 1)) == 0);
+                            assert (!reached || pointer != 0 || here_is_target);
+                            // The start makes the active bit once: afterwards it is reached for good.
+                            assert (!here_is_start || formal_active == 0 || (reached && !is_front));
+                        end
 `endif
+                end
             end
         end
     endgenerate
@@ -129,18 +128,24 @@ module fabric #(
     reg [HEIGHT-1:0] front_row;
     generate
         for (y = 0; y < HEIGHT; y = y + 1) begin : row_sum
+            wire [WIDTH-1:0] active;
+            wire [WIDTH-1:0] is_front;
+            for (x = 0; x < WIDTH; x = x + 1) begin : pick
+                assign active[x] = row[y + 1].column[x + 1].active;
+                assign is_front[x] = row[y + 1].column[x + 1].is_front;
+            end
             always @(posedge clk) begin
-                active_row[y] <= |active[y*WIDTH +: WIDTH] & ~clear;
-                front_row[y] <= |is_front[y*WIDTH +: WIDTH] & ~clear;
+                active_row[y] <= |active & ~clear;
+                front_row[y] <= |is_front & ~clear;
             end
         end
         for (x = 0; x < WIDTH; x = x + 1) begin : column_sum
-            wire [HEIGHT-1:0] cells;
+            wire [HEIGHT-1:0] active;
             for (y = 0; y < HEIGHT; y = y + 1) begin : pick
-                assign cells[y] = active[y*WIDTH + x];
+                assign active[y] = row[y + 1].column[x + 1].active;
             end
             always @(posedge clk)
-                active_column[x] <= |cells & ~clear;
+                active_column[x] <= |active & ~clear;
         end
     endgenerate
 
@@ -195,7 +200,7 @@ module fabric #(
     // clock of reset.
     always @*
         if (formal_begun) begin
-            assert ((active & (active - 1)) == 0); // at most one cell is active
+            assert ((formal_active & (formal_active - 1)) == 0); // at most one cell is active
             assert ((start_column & (start_column - 1)) == 0);
             assert ((start_row & (start_row - 1)) == 0);
         end else
