@@ -8,7 +8,7 @@ pub use size::Size;
 use crate::logic::Circuit;
 use crate::model::player::{Segment, segments};
 use crate::{SourceFile, c, circuits, verilog, vhdl};
-use activecell::{Cell, Error, Lattice, Map, Robot};
+use activecell::{Cell, Error, Lattice, Map, Robot, Route};
 
 /// What the navigator is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,10 +78,10 @@ pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle,
     let Some(order) = order else {
         return Ok(finished(language, None, rules(language), Vec::new(), Vec::new()));
     };
-    let program = program(order)?;
+    let (route, program) = program(order)?;
     let mut notes = Vec::new();
     let fabric = with_fabric(language, order.map, &mut notes);
-    let files = parts(language, order, &program, fabric)?;
+    let files = parts(language, order, &c::Program { route: &route, segments: &program }, fabric)?;
     let sizes = size::sizes(language, order.map, &program, fabric.then_some(order.fixed_map))?;
     Ok(finished(language, Some(order), files, sizes, notes))
 }
@@ -135,28 +135,30 @@ pub fn long_way(map: &Map) -> Result<(Cell, Cell), Error> {
     Ok((from, farthest(from)?))
 }
 
-/// The program M of the order, in ticks.
-fn program(order: &Order<'_>) -> Result<Vec<Segment>, Error> {
+/// The way of the order, and the program M for it, in ticks.
+fn program(order: &Order<'_>) -> Result<(Route, Vec<Segment>), Error> {
     let &Order { map, from, to, robot, .. } = order;
     map.check_task(from, to)?;
     let field = map.wave(to)?;
     if field.steps(from).is_none() {
         return Err(Error::Unreachable { from, to });
     }
-    segments(&field.route(from).program(robot, map, None), robot, map.lattice())
+    let route = field.route(from);
+    let segments = segments(&route.program(robot, map, None), robot, map.lattice())?;
+    Ok((route, segments))
 }
 
 fn parts(
     language: Language,
     order: &Order<'_>,
-    program: &[Segment],
+    program: &c::Program<'_>,
     fabric: bool,
 ) -> Result<Vec<SourceFile>, Error> {
     let &Order { map, fixed_map, .. } = order;
     let mut files = match language {
-        Language::C => c::firmware(map, Some(program))?,
-        Language::Verilog => [verilog::windowed(map)?, verilog::player(program)?].concat(),
-        Language::Vhdl => [vhdl::windowed(map)?, vhdl::player(program)?].concat(),
+        Language::C => c::firmware(map, program)?,
+        Language::Verilog => [verilog::windowed(map)?, verilog::player(program.segments)?].concat(),
+        Language::Vhdl => [vhdl::windowed(map)?, vhdl::player(program.segments)?].concat(),
     };
     if fabric {
         files.extend(match language {

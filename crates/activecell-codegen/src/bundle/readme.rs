@@ -86,7 +86,7 @@ fn about(file: &SourceFile) -> String {
     let line = file
         .text
         .lines()
-        .map(|line| line.trim_start_matches(['/', '*', '-', ' ']))
+        .map(|line| line.trim_start_matches(['/', '*', '-', '#', ' ']))
         .find(|line| !line.is_empty());
     let line = line.unwrap_or_default();
     line.split_once(". ").map_or(line, |(sentence, _)| sentence).trim_end_matches('.').to_owned()
