@@ -51,12 +51,39 @@ fn every_folder_simulates() {
                 };
                 if language == "c" {
                     assert!(said.contains("wave: (0,0)") && said.contains("(7,4) arrived"), "{said}");
+                    assert!(said.contains("PASS"), "{said}");
                 } else {
                     assert_eq!(said.matches("PASS").count(), 3, "{said}");
                 }
                 println!("{out}: make sim passes");
             }
         }
+    }
+}
+
+/// The example of the firmware checks what it was generated from.
+#[test]
+fn make_sim_finds_a_tampered_rule() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    fs::write(path.join("floor.txt"), FLOOR).unwrap();
+    // A program without a step is firmware, too.
+    for (from, to) in [("7,4", "0,4"), ("2,2", "2,2")] {
+        let out = format!("firmware-{from}");
+        let (code, _, stderr) = run(path, &format!("generate c floor.txt --from {from} --to {to} -o {out}"));
+        assert_eq!((code, stderr.as_str()), (0, ""));
+        let out = path.join(out);
+        let Some(said) = make("make_sim_finds_a_tampered_rule", &out, "sim", &["cc"]) else { return };
+        assert!(
+            said.contains(&format!("wave: ({from})")) && said.contains(&format!("({to}) arrived")),
+            "{said}"
+        );
+        let rule = fs::read_to_string(out.join("src/ac_rule.c")).unwrap();
+        assert!(rule.contains("ring1 ^ 0x0FU"));
+        fs::write(out.join("src/ac_rule.c"), rule.replace("ring1 ^ 0x0FU", "ring1 ^ 0x0EU")).unwrap();
+        let output = Command::new("make").arg("sim").current_dir(&out).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stdout);
+        assert!(!output.status.success() && said.contains("FAIL: ac_decide"), "{said}");
     }
 }
 

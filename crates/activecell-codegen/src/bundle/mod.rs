@@ -9,7 +9,7 @@ pub use size::Size;
 use crate::logic::Circuit;
 use crate::model::player::{Segment, segments};
 use crate::{SourceFile, c, circuits, verilog, vhdl};
-use activecell::{Cell, Dir, Error, Lattice, Map, Robot};
+use activecell::{Cell, Error, Lattice, Map, Robot, Route};
 
 /// What the navigator is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,10 +79,10 @@ pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle,
     let Some(order) = order else {
         return Ok(Parts { files: rules(language), ..Parts::default() }.bundled(language, None));
     };
-    let (program, facing) = program(order)?;
-    let facing = facing.map(|dir| order.map.lattice().dir_name(dir));
+    let (route, program) = program(order)?;
+    let facing = route.dirs().next().map(|dir| order.map.lattice().dir_name(dir));
     let parts = if language == Language::C {
-        let files = c::firmware(order.map, Some(&program))?;
+        let files = c::firmware(order.map, &c::Program { route: &route, segments: &program })?;
         Parts { files, sizes: size::firmware(order.map, &program), facing, ..Parts::default() }
     } else {
         let mut notes = Vec::new();
@@ -198,16 +198,17 @@ pub fn long_way(map: &Map) -> Result<(Cell, Cell), Error> {
     Ok((from, farthest(from)?))
 }
 
-/// The program M of the order, in ticks, and where the robot faces at its start.
-fn program(order: &Order<'_>) -> Result<(Vec<Segment>, Option<Dir>), Error> {
+/// The way of the order, which the robot begins facing along it, and the program M for it, in ticks.
+fn program(order: &Order<'_>) -> Result<(Route, Vec<Segment>), Error> {
     let &Order { map, from, to, robot, .. } = order;
     map.check_task(from, to)?;
     let field = map.wave(to)?;
     if field.steps(from).is_none() {
         return Err(Error::Unreachable { from, to });
     }
-    let program = field.route(from).program(robot, map, None);
-    Ok((segments(&program, robot, map.lattice())?, program.heading))
+    let route = field.route(from);
+    let segments = segments(&route.program(robot, map, None), robot, map.lattice())?;
+    Ok((route, segments))
 }
 
 /// The rule and the control unit alone.

@@ -1,8 +1,8 @@
 //! The whole firmware: header, sources, map, program, examples.
 
 use super::circuit::function;
-use super::lattice;
-use crate::model::player::{Motion, Segment};
+use super::{Program, examples, lattice};
+use crate::model::player::Motion;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
 use activecell::control::{Inputs, State};
@@ -33,24 +33,27 @@ pub fn footprint(map: &Map) -> Footprint {
     }
 }
 
-/// The C99 firmware of a map, and of a program for it if there is one.
+/// The C99 firmware of a map and of a program for it.
 ///
 /// A header and a source for each part, freestanding, without warnings at the strictest settings; examples for a plain
-/// `main` and for a Cortex-M board. The lattice is that of the map.
+/// `main`, which checks itself, and for a board with a Cortex-M that has memory enough. The lattice is that of the map.
 ///
 /// # Errors
-/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, programs without a segment, and segments without
-/// a tick.
+/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, and segments without a tick.
 ///
 /// ```
-/// use activecell::{Lattice, Map};
+/// use activecell::{Cell, Lattice, Map, Robot};
 /// use activecell_codegen::c;
+/// use activecell_codegen::model::player::segments;
 /// let map = Map::parse(Lattice::Square, "..#\n...")?;
-/// let files = c::firmware(&map, None)?;
+/// let route = map.wave(Cell::new(2, 1))?.route(Cell::new(0, 0));
+/// let robot = Robot::default();
+/// let segments = segments(&route.program(&robot, &map, None), &robot, Lattice::Square)?;
+/// let files = c::firmware(&map, &c::Program { route: &route, segments: &segments })?;
 /// assert!(files.iter().any(|file| file.path == "include/activecell.h"));
 /// # Ok::<(), activecell::Error>(())
 /// ```
-pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile>, Error> {
+pub fn firmware(map: &Map, program: &Program<'_>) -> Result<Vec<SourceFile>, Error> {
     let side = map.width().max(map.height());
     if side > SIDE_MAX {
         return Err(Error::BadValue {
@@ -59,20 +62,7 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
             allowed: "at most 65535 for firmware; use larger cells or a part of the map",
         });
     }
-    if program.is_some_and(<[Segment]>::is_empty) {
-        return Err(Error::BadValue {
-            name: "number of segments of the program",
-            value: 0.0,
-            allowed: "at least 1; leave the program out if the robot is there already",
-        });
-    }
-    if program.is_some_and(|segments| segments.iter().any(|segment| segment.ticks == 0)) {
-        return Err(Error::BadValue {
-            name: "ticks of a segment of the program",
-            value: 0.0,
-            allowed: "at least 1; leave segments without ticks out",
-        });
-    }
+    program.check()?;
     let mut files = vec![
         SourceFile::new("include/activecell.h", header(map, program)),
         SourceFile::new("src/ac_bit.h", include_str!("templates/ac_bit.h")),
@@ -81,16 +71,9 @@ pub fn firmware(map: &Map, program: Option<&[Segment]>) -> Result<Vec<SourceFile
         SourceFile::new("src/ac_wave.c", wave(map.lattice())),
         SourceFile::new("src/ac_drive.c", drive()),
         SourceFile::new("src/ac_map.c", floor(map)),
+        SourceFile::new("src/ac_program.c", program.listing()),
     ];
-    files.extend(program.map(|segments| SourceFile::new("src/ac_program.c", listing(segments))));
-    let examples = [
-        ("main.c", include_str!("templates/examples/main.c")),
-        ("cortex_m.c", include_str!("templates/examples/cortex_m.c")),
-        ("startup.c", include_str!("templates/examples/startup.c")),
-        ("startup.h", include_str!("templates/examples/startup.h")),
-        ("cortex_m.ld", include_str!("templates/examples/cortex_m.ld")),
-    ];
-    files.extend(examples.map(|(name, text)| SourceFile::new(format!("examples/{name}"), text)));
+    files.extend(examples::examples(footprint(map), program.bytes()));
     Ok(files)
 }
 
@@ -128,14 +111,14 @@ impl Shape {
     }
 }
 
-fn define(name: &str, value: u64, about: &str) -> String {
+pub(super) fn define(name: &str, value: u64, about: &str) -> String {
     format!(
         "#define {name} {value}U{}\n",
         if about.is_empty() { String::new() } else { format!(" /**< {about} */") }
     )
 }
 
-fn header(map: &Map, program: Option<&[Segment]>) -> String {
+fn header(map: &Map, program: &Program<'_>) -> String {
     let lattice = map.lattice();
     let shape = Shape::of(map);
     let degree = lattice.degree();
@@ -155,21 +138,11 @@ fn header(map: &Map, program: Option<&[Segment]>) -> String {
         define("AC_FLOOR_WAVE_WORDS", shape.wave_words(), "Memory of a wave on it."),
         define("AC_FLOOR_LEVELS", shape.levels(), "A table of that capacity always suffices on it."),
     ];
-    let (program_file, program) = program.map_or_else(Default::default, |segments| {
-        (
-            " *   ac_program.c   the program that this was generated from\n",
-            format!(
-                "\n{}/** The program M. */\nextern const ac_segment ac_program[AC_PROGRAM_COUNT];\n",
-                define("AC_PROGRAM_COUNT", segments.len() as u64, "Segments of the program.")
-            ),
-        )
-    });
     fill(
         include_str!("templates/activecell.h"),
         &[
             ("VERSION", env!("CARGO_PKG_VERSION")),
             ("LATTICE", cells_of(lattice)),
-            ("PROGRAM_FILE", program_file),
             ("SIDE_MAX", &SIDE_MAX.to_string()),
             ("DEGREE", &degree.to_string()),
             ("DIRECTIONS", &directions),
@@ -183,7 +156,9 @@ fn header(map: &Map, program: Option<&[Segment]>) -> String {
             ("INPUTS", &inputs()),
             ("MOTIONS", &motions),
             ("MAP_SIZES", &sizes.concat()),
-            ("PROGRAM", &program),
+            ("CHECKSUM", &format!("0x{:08X}U", examples::checksum(lattice))),
+            ("STEP_DEG", &(360 / u32::from(degree)).to_string()),
+            ("PROGRAM", &program.declaration()),
         ],
     )
 }
@@ -199,7 +174,7 @@ fn upper(name: &str) -> String {
     name.to_uppercase()
 }
 
-fn motion_name(motion: Motion) -> String {
+pub(super) fn motion_name(motion: Motion) -> String {
     format!("AC_RUN_{}", upper(motion.name()))
 }
 
@@ -303,15 +278,5 @@ fn floor(map: &Map) -> String {
             ("ROWS", &text),
             ("WORDS", &shape.words.to_string()),
         ],
-    )
-}
-
-fn listing(segments: &[Segment]) -> String {
-    let text = segments
-        .iter()
-        .map(|Segment { motion, ticks }| format!("    {{ {}, {ticks}U }},\n", motion_name(*motion)));
-    fill(
-        include_str!("templates/ac_program.c"),
-        &[("COUNT", &segments.len().to_string()), ("SEGMENTS", &text.collect::<String>())],
     )
 }

@@ -1,8 +1,11 @@
 //! C99 for microcontrollers: freestanding, without a heap or a library.
 
 mod circuit;
+mod examples;
 mod firmware;
 mod lattice;
+mod program;
 
 pub use circuit::{function, header, headers};
 pub use firmware::{Footprint, firmware, footprint, rows};
+pub use program::Program;

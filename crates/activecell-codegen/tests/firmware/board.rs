@@ -2,7 +2,8 @@
 
 use crate::{STRICT, common, real_map, sources, warehouse, written};
 use activecell::rule::{Decision, Sector, decide};
-use activecell::{Cell, Lattice, Map, Outcome, Rule};
+use activecell::{BitPlane, Cell, Lattice, Map, Outcome, Robot, Rule};
+use activecell_codegen::{Language, Order, generate, long_way};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -51,8 +52,13 @@ impl Tools {
     /// An image for the board from all object files in the folder.
     fn linked(&self, folder: &Path, board: Board, objects: &[&str], image: &str) {
         let script = std::fs::read_to_string(folder.join("examples/cortex_m.ld")).unwrap();
-        let script = script.replace("LENGTH = 16K", &format!("LENGTH = {}", board.ram));
-        std::fs::write(folder.join("board.ld"), script.replace("LENGTH = 256K", "LENGTH = 1M")).unwrap();
+        let line = |line: &str| match line.split_once("LENGTH = ") {
+            Some((memory, _)) if memory.contains("RAM") => format!("{memory}LENGTH = {}\n", board.ram),
+            Some((memory, _)) => format!("{memory}LENGTH = 1M\n"),
+            None => format!("{line}\n"),
+        };
+        let script: String = script.lines().map(line).collect();
+        std::fs::write(folder.join("board.ld"), script).unwrap();
         let processor = format!("-mcpu={}", board.processor);
         common::run(
             common::command(&self.gcc, folder)
@@ -305,17 +311,44 @@ fn a_cortex_m4_finds_its_way_on_a_real_map() {
     }
 }
 
-/// The example for a board, as a user would build it, from files alone.
+/// The example for a board, as a user would build it: with `make`. Larger maps get a larger board; a map that none holds is
+/// told of before anything is compiled.
 #[test]
 fn the_example_for_a_board_runs() {
-    let Some(tools) = Tools::new("the_example_for_a_board_runs") else { return };
-    let map = warehouse(Lattice::Square);
-    let folder = written("example", &map, None);
-    let files = [sources(&folder), vec!["examples/startup.c".into(), "examples/cortex_m.c".into()]].concat();
-    tools.compiled(&folder, M0, &files, &[]);
-    let objects = [objects(&folder), vec!["cortex_m.o".into(), "startup.o".into()]].concat();
-    let objects: Vec<&str> = objects.iter().map(String::as_str).collect();
-    tools.linked(&folder, M0, &objects, "route.elf");
-    let said = tools.emulated(&folder, M0, "route.elf", &[]);
-    assert!(said.starts_with("wave: (0,0)") && said.ends_with(" arrived\n"), "{said}");
+    let Some(_) = Tools::new("the_example_for_a_board_runs") else { return };
+    let Some([make]) = common::programs("the_example_for_a_board_runs", ["make"]) else { return };
+    let robot = Robot::default();
+    let large = Map::random(Lattice::Square, 256, 256, 0.1, 1).unwrap();
+    let huge = Map::new(Lattice::Square, BitPlane::new(6000, 6000).unwrap());
+    for (map, machine) in [
+        (&warehouse(Lattice::Square), Some(M0)),
+        (&warehouse(Lattice::Hex), Some(M0)),
+        (&large, Some(M4)),
+        (&huge, None),
+    ] {
+        let (from, to) = match machine {
+            Some(_) => long_way(map).unwrap(),
+            None => (Cell::new(0, 0), Cell::new(1, 0)),
+        };
+        let order = Order { map, from, to, robot: &robot, fixed_map: false };
+        let folder = common::folder(&format!("example_{}_{}", map.lattice(), map.width()));
+        common::write(&folder, &generate(Language::C, Some(&order)).unwrap().files);
+        let output = common::command(&make, &folder).arg("board").output().unwrap();
+        // What the board says comes out among the errors.
+        let said = String::from_utf8_lossy(&output.stderr);
+        let Some(board) = machine else {
+            assert!(
+                !output.status.success() && said.contains("no board:") && said.contains("of RAM"),
+                "{said}"
+            );
+            continue;
+        };
+        assert!(output.status.success(), "{said}");
+        let [first, last] = [from, to].map(|cell| cell.to_string());
+        assert!(
+            said.contains(&format!("wave: {first}")) && said.ends_with(&format!("{last} arrived\n")),
+            "{said}"
+        );
+        assert!(String::from_utf8_lossy(&output.stdout).contains(&format!("-M {} ", board.machine)));
+    }
 }

@@ -8,9 +8,9 @@ mod common;
 mod host;
 mod misra;
 
-use activecell::{BitPlane, Lattice, Map};
-use activecell_codegen::c;
-use activecell_codegen::model::player::{Motion, Segment};
+use activecell::{BitPlane, Error, Lattice, Map, Robot};
+use activecell_codegen::model::player::{self, Motion, Segment};
+use activecell_codegen::{SourceFile, c, long_way};
 use std::path::{Path, PathBuf};
 
 /// Warnings are errors, and there are many.
@@ -33,15 +33,20 @@ const STRICT: [&str; 16] = [
     "-Iexamples",
 ];
 
-/// The firmware of a map in a folder of its own.
-fn written(test: &str, map: &Map, program: Option<&[Segment]>) -> PathBuf {
+/// The firmware of a map, for a way through it, in a folder of its own.
+fn written(test: &str, map: &Map, segments: Option<&[Segment]>) -> PathBuf {
     let folder = common::folder(test);
-    for file in c::firmware(map, program).unwrap() {
-        let path = folder.join(&file.path);
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(path, &file.text).unwrap();
-    }
+    common::write(&folder, &firmware(map, segments).unwrap());
     folder
+}
+
+/// For the longest way; the program of a usual robot if no other is given.
+fn firmware(map: &Map, segments: Option<&[Segment]>) -> Result<Vec<SourceFile>, Error> {
+    let (from, to) = long_way(map)?;
+    let route = map.wave(to)?.route(from);
+    let robot = Robot::default();
+    let usual = player::segments(&route.program(&robot, map, None), &robot, map.lattice())?;
+    c::firmware(map, &c::Program { route: &route, segments: segments.unwrap_or(&usual) })
 }
 
 /// The sources of the firmware in a folder, for a command.
@@ -91,13 +96,12 @@ fn what_cannot_be_firmware_is_refused_and_lines_are_short() {
     for (map, program, expected) in [
         (&wide, None, "the longer side of the map in cells is 65536"),
         (&map, Some(&[run(3), run(0)][..]), "ticks of a segment of the program is 0"),
-        (&map, Some(&[]), "number of segments of the program is 0"),
     ] {
-        let error = c::firmware(map, program).unwrap_err().to_string();
+        let error = firmware(map, program).unwrap_err().to_string();
         assert!(error.contains(expected), "{error}");
     }
     for lattice in Lattice::ALL {
-        for file in c::firmware(&warehouse(lattice), Some(&[run(3)])).unwrap() {
+        for file in firmware(&warehouse(lattice), Some(&[run(3)])).unwrap() {
             for line in file.text.lines() {
                 assert!(line.len() <= 110 && line.trim_end() == line, "{}: {line}", file.path);
             }

@@ -1,10 +1,11 @@
 //! MISRA C:2012, as far as cppcheck knows it; and the examples, without a warning.
 
 use crate::{STRICT, common, sources, warehouse, written};
-use activecell::Lattice;
+use activecell::{Lattice, Map};
 use activecell_codegen::model::player::{Motion, Segment};
 use activecell_codegen::{Language, generate};
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// Advisory rules that the firmware does not follow, and why.
 const DEVIATIONS: [(&str, &str); 2] = [
@@ -87,16 +88,66 @@ fn headers_of_the_rule_alone_are_compiled_without_a_warning() {
     }
 }
 
+/// Compiles and runs the plain example, which checks itself: whether it found all right, and what it said.
+fn plain(gcc: &Path, folder: &Path, level: &str) -> (bool, String) {
+    let files = [sources(folder), vec!["examples/main.c".into()]].concat();
+    common::run(common::command(gcc, folder).args(STRICT).args([level, "-o", "route"]).args(files));
+    let output = common::command(&folder.join("route"), folder).output().unwrap();
+    (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
+}
+
 #[test]
 fn a_plain_program_is_compiled_without_a_warning_and_runs() {
     let Some([gcc]) = common::programs("a_plain_program", ["gcc"]) else { return };
     for lattice in Lattice::ALL {
+        let folder = written(&format!("plain_{lattice}"), &warehouse(lattice), None);
         for level in ["-O0", "-Os", "-O3"] {
-            let folder = written(&format!("plain_{lattice}"), &warehouse(lattice), Some(&PROGRAM));
-            let files = [sources(&folder), vec!["examples/main.c".into()]].concat();
-            common::run(common::command(&gcc, &folder).args(STRICT).args([level, "-o", "route"]).args(files));
-            let said = common::run(&mut common::command(&folder.join("route"), &folder));
-            assert!(said.contains("arrived") && said.contains("learning: arrived after"), "{said}");
+            let (is_right, said) = plain(&gcc, &folder, level);
+            assert!(
+                is_right && said.contains("learning: arrived after") && said.contains("\nPASS"),
+                "{said}"
+            );
+        }
+    }
+}
+
+/// A robot that is there already, on a floor of one cell, and one that has ways shorter than a tick.
+#[test]
+fn an_empty_program_is_firmware_like_any_other() {
+    let Some([gcc]) = common::programs("an_empty_program", ["gcc"]) else { return };
+    for lattice in Lattice::ALL {
+        for (name, floor) in [("one", "."), ("short", "...\n.#.")] {
+            let map = Map::parse(lattice, floor).unwrap();
+            let folder = written(&format!("empty_{name}_{lattice}"), &map, Some(&[]));
+            let (is_right, said) = plain(&gcc, &folder, "-O2");
+            assert!(is_right && said.contains("program: 0 segments"), "{said}");
+        }
+    }
+}
+
+/// The plain example finds each of these.
+#[test]
+fn tampered_firmware_is_found() {
+    let Some([gcc]) = common::programs("tampered_firmware", ["gcc"]) else { return };
+    let rules: [&[(&str, &str)]; 2] = [
+        &[("ring1 ^ 0x0FU", "ring1 ^ 0x0EU"), ("(0U - clockwise)", "(1U - clockwise)")],
+        &[("ring1 ^ 0x3FU", "ring1 ^ 0x1FU"), ("(0U - clockwise)", "(1U - clockwise)")],
+    ];
+    for (lattice, rules) in Lattice::ALL.into_iter().zip(rules) {
+        let rules = rules.iter().map(|&(right, wrong)| ("src/ac_rule.c", right, wrong, "ac_decide"));
+        let others = [
+            ("src/ac_map.c", "0x00000003U", "0x00010003U", "the wave's way"),
+            ("src/ac_wave.c", "first = target.y + 1U", "first = target.y + 3U", "the wave's way"),
+            ("src/ac_drive.c", "player->segment += 1U", "player->segment += 2U", "the player"),
+        ];
+        for (number, (file, right, wrong, what)) in rules.chain(others).enumerate() {
+            let map = Map::parse(lattice, "..............................\n".repeat(2).trim()).unwrap();
+            let folder = written(&format!("tampered_{lattice}_{number}"), &map, None);
+            let text = std::fs::read_to_string(folder.join(file)).unwrap();
+            assert!(text.contains(right), "{file}: {right}\n{text}");
+            std::fs::write(folder.join(file), text.replace(right, wrong)).unwrap();
+            let (is_right, said) = plain(&gcc, &folder, "-O1");
+            assert!(!is_right && said.contains(&format!("FAIL: {what}")), "{lattice} {wrong}: {said}");
         }
     }
 }

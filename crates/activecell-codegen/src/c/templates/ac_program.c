@@ -1,7 +1,8 @@
 /*
- * The program M as segments: @COUNT@ straight runs and turns.
+ * The program M as segments: @COUNT@ straight runs and turns, from @FROM@ to @TO@.
+ * @START@
  */
 #include "activecell.h"
 
-const ac_segment ac_program[AC_PROGRAM_COUNT] = {
+const ac_segment ac_program[@LENGTH@] = {
 @SEGMENTS@};

@@ -67,13 +67,13 @@ static uint32_t reach(const ac_wave *wave, uint32_t row, uint32_t word)
     const uint32_t level = reached_at(wave, row) + word;
     const uint32_t above = level - words;
     const uint32_t below = level + words;
-    const uint32_t vacant = ~(wave->map->rows[((row + 1U) * words) + word] | reached[level]);
-    uint32_t left = vacant;
-    if (vacant != 0U) {
+    const uint32_t closed = wave->map->rows[((row + 1U) * words) + word] | reached[level];
+    uint32_t left = ~closed;
+    if (closed != 0xFFFFFFFFU) {
         uint32_t *const planes = &wave->memory[planes_at(wave, row) + word];
 @PARITY_OF_ROW@        uint32_t taken;
 @DIRECTIONS_OF_WAVE@    }
-    return vacant ^ left;
+    return ~(closed ^ left);
 }
 
 /* Finds the cells of a row that are reached at the next step. Whether there are any. */

@@ -13,7 +13,8 @@
  *   ac_wave.c      the wave: shortest ways from every cell to a target
  *   ac_drive.c     the control unit of the motors, and the player of programs
  *   ac_map.c       the map that this was generated from
-@PROGRAM_FILE@ */
+ *   ac_program.c   the program that this was generated from, and how the robot is set down for it
+ */
 #ifndef ACTIVECELL_H
 #define ACTIVECELL_H
 
@@ -215,7 +216,7 @@ uint32_t ac_control_outputs(uint32_t state);
 /** A straight run or a turn. */
 typedef struct {
     uint32_t motion;
-    uint32_t ticks; /**< How long, in encoder ticks; at least 1. */
+    uint32_t ticks; /**< How long, in the ticks of ac_player_clock; at least 1. */
 } ac_segment;
 
 /** A player of segments. */
@@ -231,10 +232,17 @@ typedef struct {
 void ac_player_start(ac_player *player, const ac_segment *segments, uint32_t count);
 
 /**
- * One clock: gives the outputs q0 to q3 that follow. The robot waits without `go`, and while the
- * obstacle flag (AC_IN_RIGHT, AC_IN_LEFT, AC_IN_FRONT, AC_IN_BEHIND) of the segment's direction is set.
- * Every tick counts, for what a robot rolls while it brakes must not be driven twice. After the last
- * tick it is stopped, then calm.
+ * One clock: gives the outputs q0 to q3 that follow. Call it at least once for each tick; a call counts
+ * one tick at most.
+ *
+ * In runs, and in turns of a robot whose wheels turn it (differential drive), a tick is one of the
+ * wheels' encoders, the mean of both: with an encoder on each wheel every second pulse of the two. The
+ * wheels of a steered robot do not roll while it turns: in its turns a tick is a pulse of the steering,
+ * one for each step of the lattice, @STEP_DEG@ degrees.
+ *
+ * The robot waits without `go`, and while the obstacle flag (AC_IN_RIGHT, AC_IN_LEFT, AC_IN_FRONT,
+ * AC_IN_BEHIND) of the segment's direction is set. Every tick counts, for what a robot rolls while it
+ * brakes must not be driven twice. After the last tick it is stopped, then calm.
  */
 uint32_t ac_player_clock(ac_player *player, bool go, bool tick, uint32_t obstacles);
 
@@ -246,6 +254,10 @@ bool ac_player_is_done(const ac_player *player);
 @MAP_SIZES@
 /** The map. */
 extern const ac_map ac_floor;
+
+/** The sum over decisions of ac_decide that examples/main.c compares. */
+#define AC_RULE_CHECKSUM @CHECKSUM@
+
 @PROGRAM@
 #ifdef __cplusplus
 }

@@ -1,33 +1,15 @@
 /*
- * A Cortex-M board: the route of the wave from the map's first free cell to its last, written through
- * semihosting.
+ * A Cortex-M board: the wave's way for the task of the program M, written through semihosting.
  *
- *   arm-none-eabi-gcc -mcpu=cortex-m0plus -mthumb -std=c99 -Os -ffreestanding -nostdlib \
+ *   arm-none-eabi-gcc -mcpu=@CPU@ -mthumb -std=c99 -Os -ffreestanding -nostdlib \
  *       -Iinclude -Iexamples -T examples/cortex_m.ld examples/cortex_m.c examples/startup.c src/ac_*.c \
  *       -lgcc -o route.elf
- *   qemu-system-arm -M microbit -nographic -semihosting-config enable=on,target=native -kernel route.elf
+ *   qemu-system-arm -M @MACHINE@ -nographic -semihosting-config enable=on,target=native -kernel route.elf
  */
 #include "activecell.h"
 #include "startup.h"
 
 static uint32_t memory[AC_FLOOR_WAVE_WORDS];
-
-/* The first free cell of the map, or the last one. */
-static ac_cell free_cell(bool is_last)
-{
-    ac_cell found = { 0U, 0U };
-    bool is_found = false;
-    ac_cell cell;
-    for (cell.y = 0U; cell.y < AC_FLOOR_HEIGHT; ++cell.y) {
-        for (cell.x = 0U; cell.x < AC_FLOOR_WIDTH; ++cell.x) {
-            if (ac_is_free(&ac_floor, cell) && (is_last || !is_found)) {
-                found = cell;
-                is_found = true;
-            }
-        }
-    }
-    return found;
-}
 
 static void write_cell(ac_cell cell)
 {
@@ -40,20 +22,25 @@ static void write_cell(ac_cell cell)
 
 int main(void)
 {
-    ac_wave wave;
-    ac_cell cell = free_cell(false);
+    const ac_cell target = { AC_PROGRAM_TO_X, AC_PROGRAM_TO_Y };
+    ac_cell cell = { AC_PROGRAM_FROM_X, AC_PROGRAM_FROM_Y };
+    uint32_t steps = 0U;
     ac_move move = AC_FULL;
-    if (ac_wave_start(&wave, &ac_floor, free_cell(true), memory, AC_FLOOR_WAVE_WORDS)) {
+    ac_wave wave;
+    bool is_right;
+    if (ac_wave_start(&wave, &ac_floor, target, memory, AC_FLOOR_WAVE_WORDS)) {
         ac_wave_flood(&wave);
         move = ac_wave_next(&wave, cell);
     }
     host_write("wave:");
-    while (move < AC_DIRECTIONS) {
+    while ((move < AC_DIRECTIONS) && (steps != AC_PROGRAM_STEPS)) {
         write_cell(cell);
         cell = ac_neighbour(cell, move);
+        ++steps;
         move = ac_wave_next(&wave, cell);
     }
     write_cell(cell);
-    host_write((move == AC_ARRIVED) ? " arrived\n" : " no way\n");
-    return (move == AC_ARRIVED) ? 0 : 1;
+    is_right = (move == AC_ARRIVED) && (steps == AC_PROGRAM_STEPS);
+    host_write(is_right ? " arrived\n" : "\nFAIL: the wave's way is not the way of the program\n");
+    return is_right ? 0 : 1;
 }
