@@ -27,13 +27,14 @@ $(DESIGNS:%=sim-%): sim-%:
 	@$(GHDL) -r $(FLAGS) $*_tb --ieee-asserts=disable-at-0 2>&1 | sed 's/.*(report note): //' | tee build/$*.log
 	@grep -q '^PASS' build/$*.log
 
-# GHDL makes Verilog of the design, yosys gates of that.
+# GHDL makes Verilog of the design, yosys gates of that. GHDL drops attributes, so yosys is told to take block RAM.
 $(DESIGNS:%=synth-%): synth-%:
 	@mkdir -p build/$*
 	@echo "$*: synthesis, place and route …"
 	@$(GHDL) -a $(FLAGS) $($*_RTL)
 	@$(GHDL) --synth $(FLAGS) --out=verilog $($*_TOP) > build/$*.v
-	@$(YOSYS) -q -p "read_verilog build/$*.v; synth_ice40 -top $($*_TOP) -abc9 -device hx; \
+	@$(YOSYS) -q -p "read_verilog build/$*.v; $(if $(filter windowed,$*),setattr -set rom_style \"block\" map_bank*/m:*;) \
+	    synth_ice40 -top $($*_TOP) -abc9 -device hx; \
 	    delete t:\$$scopeinfo; write_json build/$*.json"
 @PLACE@
 clean:

@@ -59,7 +59,7 @@ module fabric_tb;
         if (errors == 0)
             $display("PASS fabric: %0d clocks, %0d arrivals as in the model", CLOCKS, arrivals);
         else
-            $display("FAIL: fabric, %0d of %0d clocks are not as in the model", errors, CLOCKS);
+            $display("FAIL fabric: %0d of %0d clocks are not as in the model", errors, CLOCKS);
         $finish;
     end
 endmodule
