@@ -85,7 +85,7 @@ fn the_rule_alone_is_analysed() {
 
 /// The sources among the files, in their order.
 fn sources(files: &[SourceFile]) -> impl Iterator<Item = &str> {
-    files.iter().map(|file| file.path.as_str()).filter(|path| !path.ends_with("hex"))
+    files.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with("vhd"))
 }
 
 /// Whether a test bench passes under GHDL.
