@@ -23,8 +23,7 @@ pub(crate) struct ProgramImage {
 impl ProgramImage {
     /// Bits of the memory.
     pub(crate) const fn bits(&self) -> u64 {
-        // The end and the motion stand above the ticks.
-        self.words.len() as u64 * (3 + self.tick_bits as u64)
+        self.words.len() as u64 * self.word_bits() as u64
     }
 
     /// The program that these segments are.
@@ -62,7 +61,7 @@ impl ProgramImage {
         })
     }
 
-    /// Bits of a word.
+    /// Bits of a word: the end and the motion stand above the ticks.
     pub(crate) const fn word_bits(&self) -> u32 {
         self.tick_bits + 3
     }
@@ -77,7 +76,7 @@ impl ProgramImage {
 }
 
 /// The bits of a number, at least one.
-const fn bits(number: u32) -> u32 {
+pub(crate) const fn bits(number: u32) -> u32 {
     let bits = u32::BITS - number.leading_zeros();
     if bits == 0 { 1 } else { bits }
 }

@@ -82,7 +82,8 @@ pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle,
     let (route, program) = program(order)?;
     let facing = route.dirs().next().map(|dir| order.map.lattice().dir_name(dir));
     let parts = if language == Language::C {
-        let files = c::firmware(order.map, &c::Program { route: &route, segments: &program })?;
+        let program = c::Program { route: &route, segments: &program };
+        let files = c::firmware(order.map, &program)?;
         Parts { files, sizes: size::firmware(order.map, &program), facing, ..Parts::default() }
     } else {
         let mut notes = Vec::new();

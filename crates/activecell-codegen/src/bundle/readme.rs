@@ -1,4 +1,4 @@
-//! The README and the Makefile beside the sources.
+//! The README beside the sources.
 
 use super::{Design, Language, Order, Parts, Size};
 use crate::SourceFile;

@@ -46,14 +46,14 @@ const RAMS: &str = "block RAMs of 4 kbit";
 const RAM_TILES: u64 = 1024;
 
 /// The program and the rule in flash, what the caller gives in RAM.
-pub(super) fn firmware(map: &Map, program: &[Segment]) -> Vec<Size> {
+pub(super) fn firmware(map: &Map, program: &c::Program<'_>) -> Vec<Size> {
     let footprint = c::footprint(map);
     // Bytes of code on a Cortex-M0+.
     let step = if map.lattice() == Lattice::Square { 680 } else { 860 };
     vec![
         about("a step of the rule", "bytes of code", step),
         exact("map", "bytes of flash", footprint.map_bytes),
-        exact("program", "bytes of flash", 8 * program.len() as u64),
+        exact("program", "bytes of flash", program.bytes()),
         exact("wave", "bytes of RAM while it is used", footprint.wave_bytes),
         exact("learning", "bytes of RAM that always suffice", footprint.levels_bytes),
     ]

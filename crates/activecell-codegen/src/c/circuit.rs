@@ -2,6 +2,7 @@
 
 use crate::SourceFile;
 use crate::logic::{Circuit, Expr, Port, Signal, Wire, mask};
+use crate::text::whole;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A circuit as a function without state: `static`, its name and its types prefixed `ac_`. Lanes are bits of `uint32_t`.
@@ -227,19 +228,6 @@ fn broken(statement: &str) -> String {
         from = place + 1;
     }
     lines + &statement[from..]
-}
-
-/// Without the outermost brackets.
-pub(crate) fn whole(text: &str) -> &str {
-    let balanced = |text: &str| {
-        let mut depth = 0;
-        text.chars().all(|c| {
-            depth += i32::from(c == '(') - i32::from(c == ')');
-            depth >= 0
-        })
-    };
-    let inner = text.strip_prefix('(').and_then(|text| text.strip_suffix(')'));
-    inner.filter(|inner| balanced(inner)).unwrap_or(text)
 }
 
 fn formula(circuit: &Circuit, expr: &Expr) -> String {

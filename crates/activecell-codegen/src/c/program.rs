@@ -38,7 +38,7 @@ impl Program<'_> {
     }
 
     /// Bytes in read-only memory.
-    pub(super) const fn bytes(&self) -> u64 {
+    pub(crate) const fn bytes(&self) -> u64 {
         8 * self.segments.len() as u64
     }
 

@@ -2,6 +2,7 @@
 
 use super::fabric_bench::bench;
 use super::module;
+use crate::images::bits;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
 use activecell::{Cell, Dir, Error, Lattice, Map};
@@ -52,7 +53,7 @@ pub(crate) fn checked(map: &Map) -> Result<(), Error> {
 
 /// How many bits hold the numbers below `count`.
 pub(crate) const fn bits_below(count: u32) -> u32 {
-    if count < 2 { 1 } else { (count - 1).ilog2() + 1 }
+    bits(count.saturating_sub(1))
 }
 
 /// What depends on the lattice alone.

@@ -11,7 +11,7 @@ const TASKS: usize = 20;
 
 /// The bench and its clocks: tasks between free cells, one that cannot be, one cut short; on a loadable fabric the same
 /// on an empty map after that.
-pub(super) fn bench(map: &Map, loadable: bool) -> [SourceFile; 2] {
+pub(crate) fn bench(map: &Map, loadable: bool) -> [SourceFile; 2] {
     let mut clocks = Clocks { fabric: Fabric::new(map), lines: String::new(), count: 0 };
     for _ in 0..2 {
         clocks.clock(Inputs { reset: true, ..Inputs::default() });

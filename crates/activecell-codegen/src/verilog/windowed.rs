@@ -152,7 +152,7 @@ fn moves(lattice: Lattice) -> String {
 }
 
 /// The test bench, and the file that it reads: a line a clock, the inputs and what the navigator must show.
-fn bench(map: &Map, banks: &Banks) -> [SourceFile; 2] {
+pub(crate) fn bench(map: &Map, banks: &Banks) -> [SourceFile; 2] {
     let [x_digits, y_digits] = [banks.x_bits, banks.y_bits].map(|bits| bits.div_ceil(4) as usize);
     let clocks = trace(map);
     let cell = |cell: Cell| format!("{:0x_digits$x}_{:0y_digits$x}", cell.x, cell.y);

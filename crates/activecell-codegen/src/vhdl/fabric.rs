@@ -36,7 +36,8 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
         bench_lines(),
         filled("tb/fabric_tb.vhd".into(), include_str!("templates/fabric_tb.vhd")),
     ];
-    files.extend(verilog::fabric(map, loadable)?.into_iter().filter(|file| file.path == "tb/fabric.hex"));
+    let [_, trace] = verilog::fabric_bench(map, loadable);
+    files.push(trace);
     Ok(files)
 }
 

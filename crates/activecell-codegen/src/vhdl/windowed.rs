@@ -42,7 +42,8 @@ pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
         bench_lines(),
         SourceFile::new("tb/windowed_tb.vhd", fill(include_str!("templates/windowed_tb.vhd"), &values)),
     ];
-    files.extend(verilog::windowed(map)?.into_iter().filter(|file| file.path == "tb/windowed.hex"));
+    let [_, trace] = verilog::windowed_bench(map, &banks);
+    files.push(trace);
     Ok(files)
 }
 
