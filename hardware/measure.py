@@ -101,7 +101,7 @@ def fabric() -> str:
             cells = width * height
             # Walls in every other row leave one way, there and back through the rows between them.
             steps = width * ((height + 1) // 2) + height // 2 - 1
-            serpentine_us = (2 * steps + 6) / found.mhz
+            serpentine_us = (2 * steps + 7) / found.mhz
             rows.append([f"{lattice}, {width} x {height}", "wired in" if fixed else "loadable", part.name, found.luts,
                          found.luts / cells, found.flip_flops, found.mhz, serpentine_us])
     return table(["cells", "map", "part", "LUTs", "LUTs a cell", "flip-flops", "MHz", "serpentine, us"], rows)

@@ -15,6 +15,7 @@ mod banks;
 mod bundle;
 pub mod c;
 pub mod circuits;
+pub(crate) mod colours;
 mod images;
 pub mod logic;
 pub mod model;

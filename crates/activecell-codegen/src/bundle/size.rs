@@ -73,15 +73,15 @@ pub(super) fn windowed(map: &Map) -> Result<Vec<Size>, Error> {
 }
 
 pub(super) fn fabric(map: &Map, is_fixed: bool) -> Vec<Size> {
-    // In tenths; the rest is for rows and columns.
-    let each = match (map.lattice(), is_fixed) {
-        (Lattice::Square, false) => 94,
-        (Lattice::Square, true) => 54,
-        (Lattice::Hex, false) => 143,
-        (Lattice::Hex, true) => 72,
+    // In tenths a cell, free cells alone if the others are wired in; the rest is for rows and columns.
+    let (cells, each) = match (map.lattice(), is_fixed) {
+        (Lattice::Square, false) => (map.cells(), 94),
+        (Lattice::Square, true) => (map.free_cells(), 79),
+        (Lattice::Hex, false) => (map.cells(), 143),
+        (Lattice::Hex, true) => (map.free_cells(), 113),
     };
     let sides = u64::from(map.width() + map.height());
-    vec![about("fabric", LUTS, map.cells() as u64 * each / 10 + 15 * sides)]
+    vec![about("fabric", LUTS, cells as u64 * each / 10 + 4 * sides)]
 }
 
 pub(super) fn player(program: &[Segment]) -> Result<Vec<Size>, Error> {

@@ -4,6 +4,7 @@
 //! the generated hardware is compared with.
 
 use crate::circuits::fabric_cell;
+use crate::colours::Colours;
 use activecell::{Cell, Dir, Lattice, Map};
 
 /// What the fabric is given at a clock.
@@ -23,9 +24,9 @@ pub struct Inputs {
 pub struct Outputs {
     /// A task is being done.
     pub busy: bool,
-    /// The robot was in the cell `at`, two clocks ago.
+    /// The robot was in the cell `at`, three clocks ago.
     pub moving: bool,
-    /// Where it was, or where it stopped.
+    /// Where it was then; before it moves the start, after it has moved the target.
     pub at: Cell,
     /// The task is done: the robot is at the target.
     pub arrived: bool,
@@ -73,16 +74,15 @@ pub struct Fabric {
     cells: Vec<State>,
     task: Option<(Cell, Cell)>,
     warm_up: u8,
-    /// The cell that was active, and whether the wave spread, a clock ago.
-    active: Option<Cell>,
-    front: bool,
-    /// Whether the wave spread two clocks ago.
-    front_seen: bool,
+    /// The cell that was active a clock ago, and two.
+    active: [Option<Cell>; 2],
+    /// Whether the wave was seen in a watched cell a clock ago, two and three.
+    front: [bool; 3],
     outputs: Outputs,
 }
 
 /// Clocks from the beginning of a task until its wave is seen by the control.
-const WARM_UP: u8 = 3;
+const WARM_UP: u8 = 4;
 
 impl Fabric {
     /// The fabric with this map loaded, and nothing to do.
@@ -105,9 +105,8 @@ impl Fabric {
             cells: vec![State::default(); cells.len() + 1],
             task: None,
             warm_up: 0,
-            active: None,
-            front: false,
-            front_seen: false,
+            active: [None; 2],
+            front: [false; 3],
             outputs: Outputs::default(),
         }
     }
@@ -116,7 +115,7 @@ impl Fabric {
     pub fn clock(&mut self, inputs: Inputs) -> Outputs {
         let stop = inputs.reset || inputs.load.is_some();
         let clear = stop || inputs.begin.is_some();
-        self.clock_control(clear, stop);
+        self.clock_control(inputs.begin, stop);
         self.clock_cells(clear);
         if let Some(obstacle) = inputs.load {
             self.obstacles.rotate_left(1);
@@ -129,27 +128,35 @@ impl Fabric {
     }
 
     /// The control sees what the cells were before this clock.
-    fn clock_control(&mut self, clear: bool, stop: bool) {
-        let (seen, now) = (self.active, self.outputs);
-        let at_target = now.moving && self.task.is_some_and(|task| task.1 == now.at);
-        let stopped = self.warm_up == WARM_UP && !self.front_seen && !now.moving;
-        let at = seen.unwrap_or(now.at);
-        if clear {
+    fn clock_control(&mut self, begin: Option<(Cell, Cell)>, stop: bool) {
+        let ([_, seen], now) = (self.active, self.outputs);
+        if stop || begin.is_some() {
+            let at = begin.map_or(now.at, |(start, _)| start);
             self.outputs = Outputs { busy: !stop, at, ..Outputs::default() };
-            (self.warm_up, self.front_seen, self.active, self.front) = (0, false, None, false);
+            (self.warm_up, self.front, self.active) = (0, [false; 3], [None; 2]);
             return;
         }
+        let at_target = now.moving && seen.is_none();
+        let is_spreading = self.warm_up < WARM_UP || self.front[1] || self.front[2];
+        let stopped = !is_spreading && seen.is_none() && !now.moving;
         self.outputs = Outputs {
             busy: now.busy && !at_target && !stopped,
             moving: seen.is_some(),
-            at,
+            at: seen.unwrap_or(now.at),
             arrived: now.arrived || at_target,
             unreachable: now.unreachable || now.busy && stopped && !now.arrived,
         };
         self.warm_up = WARM_UP.min(self.warm_up + 1);
-        self.front_seen = self.front;
-        self.active = self.active_cell();
-        self.front = self.cells.iter().any(|cell| cell.is_front());
+        self.active = [self.active_cell(), self.active[0]];
+        self.front = [self.is_front_seen(), self.front[0], self.front[1]];
+    }
+
+    /// Whether the wave has come to a watched cell: of two cells side by side, one is.
+    fn is_front_seen(&self) -> bool {
+        let watched = Colours::of_neighbours(self.lattice);
+        let is_front =
+            |(number, state): (usize, &State)| state.is_front() && watched.of(self.cell(number)) != 0;
+        self.cells[..self.obstacles.len()].iter().enumerate().any(is_front)
     }
 
     fn clock_cells(&mut self, clear: bool) {
@@ -285,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn a_way_of_n_steps_takes_2_n_and_6_clocks() {
+    fn a_way_of_n_steps_takes_2_n_and_7_clocks() {
         let map = Map::parse(Lattice::Square, "....\n###.\n....\n.###\n....").unwrap();
         for target in map.free() {
             let mut fabric = Fabric::new(&map);
@@ -297,7 +304,7 @@ mod tests {
                 outputs = fabric.clock(Inputs::default());
                 clocks += 1;
             }
-            assert_eq!(clocks, 2 * steps + 6);
+            assert_eq!(clocks, 2 * steps + 7);
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::fabric_bench::bench;
 use super::module;
+use crate::colours::{Colours, goes, leads};
 use crate::images::bits;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
@@ -79,12 +80,17 @@ fn top(map: &Map, loadable: bool) -> String {
     let odd = match lattice {
         Lattice::Square => "",
         Lattice::Hex => {
-            "                    localparam ODD = (y - 1) % 2; // odd rows of the map are half a cell further right\n"
+            "                    localparam ODD = ROW % 2; // odd rows are half a cell further right\n"
         }
     };
     let reached = lanes(lattice, |place, _| format!("{place}.reached"));
     let entering = lanes(lattice, |place, dir| format!("{place}.leaving[{}]", lattice.opposite(dir).0));
+    let colours = Colours::of_moves(lattice);
     for_lattice(lattice, include_str!("templates/fabric.v"))
+        .replace("@COLOURS@", &colours.count.to_string())
+        .replace("@COLOUR@", &colours.formula("COLUMN", "ROW", "%"))
+        .replace("@WATCHED@", &Colours::of_neighbours(lattice).formula("COLUMN", "ROW", "%"))
+        .replace("@MOVES@\n", &moves(lattice))
         .replace("@MAP_PORTS@", ports)
         .replace("@MAP@\n", &storage)
         .replace("@ODD@", odd)
@@ -130,4 +136,17 @@ pub(crate) fn neighbour(lattice: Lattice, dir: Dir) -> [String; 2] {
         step => format!(" + {step}"),
     };
     [format!("x{}{shift}", offset(even.x)), format!("y{}", offset(even.y))]
+}
+
+/// Which moves the robot's colours tell, and where these lead.
+fn moves(lattice: Lattice) -> String {
+    let colours = Colours::of_moves(lattice);
+    let goes = lattice.dirs().map(|dir| {
+        let (name, step) = (goes(lattice, dir), colours.step(dir));
+        let stepped = format!("(last_colour << {step} | last_colour >> {})", colours.count - step);
+        format!("    wire {name:<7} = |(colour & {stepped});\n")
+    });
+    let leads = leads(lattice, ["|", "&"], ["~at_y[0]", "at_y[0]"])
+        .map(|(name, when)| format!("    wire {name:<7} = {when};\n"));
+    goes.chain(leads).collect()
 }

@@ -1,6 +1,7 @@
 //! The fabric: a small automaton for every cell of the map.
 
 use super::{bench_lines, entity, lanes};
+use crate::colours::{Colours, goes, leads};
 use crate::template::fill;
 use crate::verilog::{bits_below, checked, neighbour};
 use crate::{SourceFile, circuits, verilog};
@@ -57,6 +58,8 @@ fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
             format!("leaving({}*{neighbour} + {})", lattice.degree(), lattice.opposite(dir).0)
         }),
     ];
+    let colours = Colours::of_moves(lattice);
+    let [move_signals, moves] = moves(lattice);
     let choose = |yes: &str, no: &str| String::from(if loadable { yes } else { no });
     vec![
         ("MAP_PORTS", choose(include_str!("templates/fabric_map_ports.vhd"), "")),
@@ -66,6 +69,11 @@ fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
         ("MAP", if loadable { LOADED.into() } else { fixed(map) }),
         ("ODD", odd.into()),
         ("AROUND", around.concat()),
+        ("COLOURS", colours.count.to_string()),
+        ("COLOUR", colours.formula("x", "y", "mod")),
+        ("WATCHED", Colours::of_neighbours(lattice).formula("x", "y", "mod")),
+        ("MOVE_SIGNALS", move_signals),
+        ("MOVES", moves),
         ("LATTICE", lattice.name().into()),
         ("DEGREE", lattice.degree().to_string()),
         ("TOP", (lattice.degree() - 1).to_string()),
@@ -102,4 +110,18 @@ fn around(name: &str, lattice: Lattice, bit: impl Fn(&str, Dir) -> String) -> St
         format!("                {bit:<42} -- {}\n", lattice.dir_name(dir))
     });
     format!("            {name} <=\n{}", lanes.collect::<Vec<_>>().concat())
+}
+
+/// Which moves the robot's colours tell, and where these lead: the signals and what drives them.
+fn moves(lattice: Lattice) -> [String; 2] {
+    let step = |dir| format!("goes(last_colour, colour, {})", Colours::of_moves(lattice).step(dir));
+    let goes = lattice.dirs().map(|dir| (goes(lattice, dir), step(dir)));
+    let leads =
+        leads(lattice, ["or", "and"], ["not row(0)", "row(0)"]).map(|(name, when)| (name.to_owned(), when));
+    let signals: Vec<(String, String)> = goes.chain(leads).collect();
+    let lines = |line: fn(&(String, String)) -> String| signals.iter().map(line).collect::<Vec<_>>().concat();
+    [
+        lines(|(name, _)| format!("    signal {name:<7} : std_logic;\n")),
+        lines(|(name, when)| format!("    {name:<7} <= {when};\n")),
+    ]
 }

@@ -6,7 +6,7 @@
 // ends.
 //
 // Cells are counted in columns from the left and rows from the top, from 0.
-// A task whose way has n steps takes 2 n + 6 clocks, the one in which it begins among them.
+// A task whose way has n steps takes 2 n + 7 clocks, the one in which it begins among them.
 module fabric #(
     parameter WIDTH = @WIDTH@,         // columns
     parameter HEIGHT = @HEIGHT@,        // rows
@@ -21,13 +21,14 @@ module fabric #(
     input  wire [COLUMN_BITS-1:0] target_x,
     input  wire [ROW_BITS-1:0]    target_y,
     output reg                    busy,        // a task is being done
-    output reg                    moving,      // the robot was in the cell below, two clocks ago
-    output reg  [COLUMN_BITS-1:0] at_x,        // where the robot was, two clocks ago; where it stopped
+    output reg                    moving,      // the robot was in the cell below, three clocks ago
+    output reg  [COLUMN_BITS-1:0] at_x,        // where the robot was, three clocks ago; where it stands
     output reg  [ROW_BITS-1:0]    at_y,
     output reg                    arrived,     // the task is done: the robot is at the target
     output reg                    unreachable  // the task is done: no way leads to the target
 );
     localparam CELLS = WIDTH * HEIGHT;
+    localparam COLOURS = @COLOURS@; // a cell and its neighbours all have different ones
 
 @MAP@
     wire clear = stop | begin_task;
@@ -70,15 +71,21 @@ module fabric #(
         for (y = 0; y < HEIGHT + 2; y = y + 1) begin : row
             for (x = 0; x < WIDTH + 2; x = x + 1) begin : column
                 wire       reached;
-                wire       is_front;
                 wire       active;
                 wire [@TOP@:0] leaving;
+                wire [COLOURS-1:0] colour_seen; // the robot's, if it is here or further left in this row
+                wire       front_seen; // the wave, coming to a watched cell here or further left
                 if (x == 0 || x > WIDTH || y == 0 || y > HEIGHT) begin : outside
-                    assign {reached, is_front, active, leaving} = 0;
+                    assign {reached, active, leaving, colour_seen, front_seen} = 0;
                 end else begin : inside
-                    localparam HERE = (y - 1) * WIDTH + x - 1; // the number of the cell on the map
-@ODD@                    wire here_is_target = target_column[x - 1] & target_row[y - 1];
-                    wire here_is_start = start_column[x - 1] & start_row[y - 1];
+                    localparam COLUMN = x - 1;
+                    localparam ROW = y - 1;
+                    localparam HERE = ROW * WIDTH + COLUMN; // the number of the cell on the map
+                    localparam COLOUR = @COLOUR@;
+                    localparam WATCHED = @WATCHED@ != 0; // one of two side by side is
+@ODD@                    wire here_is_target = target_column[COLUMN] & target_row[ROW];
+                    wire here_is_start = start_column[COLUMN] & start_row[ROW];
+                    wire is_front;
                     wire [@TOP@:0] reached_around = {
 @REACHED@
                     };
@@ -100,6 +107,8 @@ module fabric #(
                         .active(active),
                         .leaving(leaving)
                     );
+                    assign colour_seen = row[y].column[x - 1].colour_seen | active << COLOUR;
+                    assign front_seen = row[y].column[x - 1].front_seen | (WATCHED & is_front);
 
 `ifdef FORMAL
                     assign formal_active[HERE] = active;
@@ -121,77 +130,72 @@ module fabric #(
         end
     endgenerate
 
-    // Where the active cell is, and whether the wave still spreads: by rows and columns, then altogether,
-    // each in a clock, so that the fabric's speed is that of its cells.
-    reg [WIDTH-1:0]  active_column;
-    reg [HEIGHT-1:0] active_row;
-    reg [HEIGHT-1:0] front_row;
+    // The robot's colour, and whether the wave still spreads: by rows, then altogether, each in a clock, so
+    // that the fabric's speed is that of its cells. Two colours that follow each other are a move. A wave
+    // that spreads comes from a cell to one beside it: of two clocks, one sees it in a watched cell.
+    reg [HEIGHT*COLOURS-1:0] row_colour; // a clock ago, row by row
+    reg [HEIGHT-1:0]         row_front;
     generate
         for (y = 0; y < HEIGHT; y = y + 1) begin : row_sum
-            wire [WIDTH-1:0] active;
-            wire [WIDTH-1:0] is_front;
-            for (x = 0; x < WIDTH; x = x + 1) begin : pick
-                assign active[x] = row[y + 1].column[x + 1].active;
-                assign is_front[x] = row[y + 1].column[x + 1].is_front;
-            end
             always @(posedge clk) begin
-                active_row[y] <= |active & ~clear;
-                front_row[y] <= |is_front & ~clear;
+                row_colour[COLOURS*y +: COLOURS] <= clear ? 0 : row[y + 1].column[WIDTH].colour_seen;
+                row_front[y] <= ~clear & row[y + 1].column[WIDTH].front_seen;
             end
-        end
-        for (x = 0; x < WIDTH; x = x + 1) begin : column_sum
-            wire [HEIGHT-1:0] active;
-            for (y = 0; y < HEIGHT; y = y + 1) begin : pick
-                assign active[y] = row[y + 1].column[x + 1].active;
-            end
-            always @(posedge clk)
-                active_column[x] <= |active & ~clear;
         end
     endgenerate
 
-    reg [COLUMN_BITS-1:0] active_x;
-    reg [ROW_BITS-1:0]    active_y;
+    reg [COLOURS-1:0] colour_in_rows;
     always @* begin
-        active_x = 0;
-        active_y = 0;
-        for (i = 0; i < WIDTH; i = i + 1)
-            active_x = active_x | (active_column[i] ? i[COLUMN_BITS-1:0] : 0);
+        colour_in_rows = 0;
         for (i = 0; i < HEIGHT; i = i + 1)
-            active_y = active_y | (active_row[i] ? i[ROW_BITS-1:0] : 0);
+            colour_in_rows = colour_in_rows | row_colour[COLOURS*i +: COLOURS];
     end
 
-    // The control: a task ends when the active cell is the target, or when the wave has stopped and no cell
-    // is active.
-    reg       in_column;   // the robot was in the target's column, two clocks ago
-    reg       in_row;      // the robot was in the target's row, two clocks ago
-    reg       front_seen;  // the wave still spread, two clocks ago
-    reg [3:0] warm_up;     // clocks from the beginning until the wave is seen here
-    wire      at_target = in_column & in_row;
-    wire      stopped = warm_up[3] & ~front_seen & ~moving;
+    reg [COLOURS-1:0] colour;      // the robot's colour, two clocks ago; none before the wave has come to it
+    reg [COLOURS-1:0] last_colour; // three clocks ago
+@MOVES@
+
+    // The control: a task ends when the robot is at the target, where the active bit ends, or when the wave
+    // has stopped and no cell is active.
+    reg       front_seen;      // the wave was seen, two clocks ago
+    reg       last_front_seen; // three clocks ago
+    reg [4:0] warm_up;         // clocks from the beginning until the wave is seen here
+    wire      at_target = moving & ~|colour;
+    wire      stopped = warm_up[4] & ~front_seen & ~last_front_seen & ~|colour & ~moving;
     always @(posedge clk) begin
         if (clear) begin
             busy <= ~stop;
-            warm_up <= 4'b0001;
-            in_column <= 1'b0;
-            in_row <= 1'b0;
+            warm_up <= 5'b00001;
             front_seen <= 1'b0;
+            last_front_seen <= 1'b0;
+            colour <= 0;
+            last_colour <= 0;
             moving <= 1'b0;
             arrived <= 1'b0;
             unreachable <= 1'b0;
+            if (begin_task) begin
+                at_x <= start_x;
+                at_y <= start_y;
+            end
         end else begin
-            warm_up <= {warm_up[3] | warm_up[2], warm_up[1:0], 1'b0};
-            in_column <= |(active_column & target_column);
-            in_row <= |(active_row & target_row);
-            front_seen <= |front_row;
-            moving <= |active_row;
+            warm_up <= {warm_up[4] | warm_up[3], warm_up[2:0], 1'b0};
+            front_seen <= |row_front;
+            last_front_seen <= front_seen;
+            colour <= colour_in_rows;
+            last_colour <= colour;
+            moving <= |colour;
             arrived <= arrived | at_target;
             unreachable <= unreachable | busy & stopped & ~arrived;
             if (at_target | stopped)
                 busy <= 1'b0;
-        end
-        if (|active_row) begin
-            at_x <= active_x;
-            at_y <= active_y;
+            if (right)
+                at_x <= at_x + 1'b1;
+            else if (left)
+                at_x <= at_x - 1'b1;
+            if (down)
+                at_y <= at_y + 1'b1;
+            else if (up)
+                at_y <= at_y - 1'b1;
         end
     end
 

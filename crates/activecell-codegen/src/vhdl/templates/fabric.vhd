@@ -6,7 +6,8 @@
 -- then follows the pointers, a move a clock, along a shortest way. At the target, which has no pointer,
 -- it ends.
 --
--- Cells are counted in columns from the left and rows from the top, from 0.
+-- Cells are counted in columns from the left and rows from the top, from 0. A task whose way has n steps
+-- takes 2 n + 7 clocks, the one in which it begins among them.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -28,8 +29,8 @@ entity fabric is
         target_x    : in  std_logic_vector(COLUMN_BITS - 1 downto 0);
         target_y    : in  std_logic_vector(ROW_BITS - 1 downto 0);
         busy        : out std_logic;                                  -- a task is being done
-        moving      : out std_logic;                                  -- the robot was in this cell two clocks ago:
-        at_x        : out std_logic_vector(COLUMN_BITS - 1 downto 0); -- its column; stays when it has stopped
+        moving      : out std_logic;                                  -- the robot was in this cell three clocks ago:
+        at_x        : out std_logic_vector(COLUMN_BITS - 1 downto 0); -- its column; where it stands if it does not move
         at_y        : out std_logic_vector(ROW_BITS - 1 downto 0);    -- its row
         arrived     : out std_logic;                                  -- done: the robot is at the target
         unreachable : out std_logic                                   -- done: the wave never came to the start
@@ -37,7 +38,8 @@ entity fabric is
 end entity fabric;
 
 architecture rtl of fabric is
-    constant CELLS : positive := WIDTH * HEIGHT;
+    constant CELLS   : positive := WIDTH * HEIGHT;
+    constant COLOURS : positive := @COLOURS@; -- a cell and its neighbours all have different ones
 
     -- The number of a cell in row order; CELLS for all that lies outside, where nothing is ever reached.
     function at (x, y : integer) return natural is
@@ -64,36 +66,35 @@ architecture rtl of fabric is
     signal target_column : std_logic_vector(WIDTH - 1 downto 0) := (others => '0');
     signal target_row    : std_logic_vector(HEIGHT - 1 downto 0) := (others => '0');
 
-    -- Where the active cell is, and whether the wave still spreads: by rows and columns, then
-    -- altogether, each in a clock, so that the fabric's speed is that of its cells.
-    signal active_column : std_logic_vector(WIDTH - 1 downto 0) := (others => '0');
-    signal active_row    : std_logic_vector(HEIGHT - 1 downto 0) := (others => '0');
-    signal front_row     : std_logic_vector(HEIGHT - 1 downto 0) := (others => '0');
+    -- The robot's colour, and whether the wave still spreads: by rows, then altogether, each in a clock, so
+    -- that the fabric's speed is that of its cells. Two colours that follow each other are a move. A wave
+    -- that spreads comes from a cell to one beside it: of two clocks, one sees it in a watched cell.
+    subtype colour_lanes is std_logic_vector(COLOURS - 1 downto 0);
+    type colours_of_rows is array (0 to HEIGHT - 1) of colour_lanes;
+    signal row_colour  : colours_of_rows := (others => (others => '0')); -- a clock ago
+    signal row_front   : std_logic_vector(HEIGHT - 1 downto 0) := (others => '0');
+    signal colour      : colour_lanes := (others => '0'); -- two clocks ago; none before the wave has come
+    signal last_colour : colour_lanes := (others => '0'); -- three clocks ago
+@MOVE_SIGNALS@
+    -- The control: a task ends when the robot is at the target, where the active bit ends, or when the wave
+    -- has stopped and no cell is active.
+    signal warm_up         : std_logic_vector(4 downto 0) := "00001"; -- clocks until the wave is seen here
+    signal front_seen      : std_logic := '0';                        -- the wave was seen, two clocks ago
+    signal last_front_seen : std_logic := '0';                        -- three clocks ago
+    signal is_busy         : std_logic := '0';
+    signal is_moving       : std_logic := '0';
+    signal is_arrived      : std_logic := '0';
+    signal is_unreachable  : std_logic := '0';
+    signal column          : unsigned(COLUMN_BITS - 1 downto 0) := (others => '0');
+    signal row             : unsigned(ROW_BITS - 1 downto 0) := (others => '0');
+    signal at_target       : std_logic;
+    signal stopped         : std_logic;
 
-    -- The control: a task ends when the active cell is the target, or when the wave has stopped and no
-    -- cell is active.
-    signal warm_up        : std_logic_vector(3 downto 0) := "0001"; -- clocks until the wave is seen here
-    signal front_seen     : std_logic := '0';                       -- the wave still spread, two clocks ago
-    signal is_busy        : std_logic := '0';
-    signal is_moving      : std_logic := '0';
-    signal is_arrived     : std_logic := '0';
-    signal is_unreachable : std_logic := '0';
-    signal in_column      : std_logic := '0';                       -- the robot was in the target's column
-    signal in_row         : std_logic := '0';                       -- and in its row, two clocks ago
-    signal at_target      : std_logic;
-    signal stopped        : std_logic;
-
-    -- The number of the bit that is 1, of those in these places.
-    function number_of (lane : std_logic_vector; bits : positive) return std_logic_vector is
-        variable number : unsigned(bits - 1 downto 0) := (others => '0');
+    -- Whether the robot went from a colour to the one that is so many further.
+    function goes (from, to_colour : colour_lanes; step : natural) return std_logic is
     begin
-        for i in lane'range loop
-            if lane(i) = '1' then
-                number := number or to_unsigned(i, bits);
-            end if;
-        end loop;
-        return std_logic_vector(number);
-    end function number_of;
+        return or_reduce(to_colour and std_logic_vector(rotate_left(unsigned(from), step)));
+    end function goes;
 begin
     stop  <= @STOP@;
     clear <= stop or begin_task;
@@ -147,56 +148,79 @@ begin
     end process take_task;
 
     sum_up : process (clk)
-        variable column : std_logic_vector(HEIGHT - 1 downto 0);
+        variable seen  : colour_lanes;
+        variable front : std_logic;
     begin
         if rising_edge(clk) then
             for y in 0 to HEIGHT - 1 loop
-                active_row(y) <= or_reduce(active(y*WIDTH + WIDTH - 1 downto y*WIDTH)) and not clear;
-                front_row(y)  <= or_reduce(is_front(y*WIDTH + WIDTH - 1 downto y*WIDTH)) and not clear;
-            end loop;
-            for x in 0 to WIDTH - 1 loop
-                for y in 0 to HEIGHT - 1 loop
-                    column(y) := active(y*WIDTH + x);
+                seen  := (others => '0');
+                front := '0';
+                for x in 0 to WIDTH - 1 loop
+                    seen(@COLOUR@) := seen(@COLOUR@) or active(y*WIDTH + x);
+                    if @WATCHED@ /= 0 then
+                        front := front or is_front(y*WIDTH + x);
+                    end if;
                 end loop;
-                active_column(x) <= or_reduce(column) and not clear;
+                row_colour(y) <= mux(clear, (seen'range => '0'), seen);
+                row_front(y)  <= front and not clear;
             end loop;
         end if;
     end process sum_up;
 
-    at_target <= in_column and in_row;
-    stopped   <= warm_up(3) and not front_seen and not is_moving;
+@MOVES@
+    at_target <= is_moving and not or_reduce(colour);
+    stopped   <= warm_up(4) and not (front_seen or last_front_seen or or_reduce(colour) or is_moving);
 
     control : process (clk)
+        variable seen : colour_lanes;
     begin
         if rising_edge(clk) then
             if clear = '1' then
-                is_busy        <= not stop;
-                warm_up        <= "0001";
-                front_seen     <= '0';
-                is_moving      <= '0';
-                in_column      <= '0';
-                in_row         <= '0';
-                is_arrived     <= '0';
-                is_unreachable <= '0';
+                is_busy         <= not stop;
+                warm_up         <= "00001";
+                front_seen      <= '0';
+                last_front_seen <= '0';
+                colour          <= (others => '0');
+                last_colour     <= (others => '0');
+                is_moving       <= '0';
+                is_arrived      <= '0';
+                is_unreachable  <= '0';
+                if begin_task = '1' then
+                    column <= unsigned(start_x);
+                    row    <= unsigned(start_y);
+                end if;
             else
-                warm_up        <= (warm_up(3) or warm_up(2)) & warm_up(1 downto 0) & '0';
-                front_seen     <= or_reduce(front_row);
-                is_moving      <= or_reduce(active_row);
-                in_column      <= or_reduce(active_column and target_column);
-                in_row         <= or_reduce(active_row and target_row);
-                is_arrived     <= is_arrived or at_target;
-                is_unreachable <= is_unreachable or (is_busy and stopped and not is_arrived);
+                seen := (others => '0');
+                for y in 0 to HEIGHT - 1 loop
+                    seen := seen or row_colour(y);
+                end loop;
+                warm_up         <= (warm_up(4) or warm_up(3)) & warm_up(2 downto 0) & '0';
+                front_seen      <= or_reduce(row_front);
+                last_front_seen <= front_seen;
+                colour          <= seen;
+                last_colour     <= colour;
+                is_moving       <= or_reduce(colour);
+                is_arrived      <= is_arrived or at_target;
+                is_unreachable  <= is_unreachable or (is_busy and stopped and not is_arrived);
                 if at_target = '1' or stopped = '1' then
                     is_busy <= '0';
                 end if;
-            end if;
-            if or_reduce(active_row) = '1' then
-                at_x <= number_of(active_column, COLUMN_BITS);
-                at_y <= number_of(active_row, ROW_BITS);
+                if right = '1' then
+                    column <= column + 1;
+                elsif left = '1' then
+                    column <= column - 1;
+                end if;
+                if down = '1' then
+                    row <= row + 1;
+                elsif up = '1' then
+                    row <= row - 1;
+                end if;
             end if;
         end if;
     end process control;
 
+    at_x        <= std_logic_vector(column);
+    at_y        <= std_logic_vector(row);
     busy        <= is_busy;
     moving      <= is_moving;
     arrived     <= is_arrived;
