@@ -127,8 +127,18 @@ def firmware() -> str:
     said = done.stdout + done.stderr
     if done.returncode != 0 or "NOT RUN" in said:
         raise SystemExit(f"hardware: the tests of the firmware did not run (make deps?):\n{said[-2000:]}")
-    kept = [line.strip() for line in said.splitlines() if re.match(r"(square|hex)[ :]|decision", line.strip())]
-    return "".join(f"- {line}\n" for line in sorted(kept))
+    kept = sorted(line.strip() for line in said.splitlines())
+    bytes_of, instructions = (board_table(kept, measured) for measured in ("bytes of", "instructions"))
+    rest = "".join(f"- {line}\n" for line in kept if re.match(r"(square|hex): .*(MISRA|ns)", line))
+    return f"Bytes of code, and of the map of 64 x 64:\n\n{bytes_of}\nInstructions, mean:\n\n{instructions}\n{rest}"
+
+
+def board_table(lines: list[str], measured: str) -> str:
+    """A row for each line like `square M4: bytes of window 460, step 681`, a column for each name."""
+    found = [re.match(rf"(square|hex) (\S+): {measured} (.*)", line) for line in lines]
+    rows = [[lattice, core, *re.split(r"[,;] ", values)] for lattice, core, values in (line.groups() for line in found if line)]
+    heads = ["cells", "core", *(value.rsplit(" ", 1)[0] for value in rows[0][2:])]
+    return table(heads, [[*row[:2], *(value.rsplit(" ", 1)[1] for value in row[2:])] for row in rows])
 
 
 def main() -> None:
