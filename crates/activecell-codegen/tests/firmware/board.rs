@@ -194,8 +194,8 @@ fn a_step_takes_few_instructions() {
             let longest = tools.longest(&folder, "count.elf", "ac_next", &steps);
             let step = (steps.len() - nothing) as f64 / ROUNDS;
             println!(
-                "{lattice} {}: instructions a decision {:.1}, a step of the published rule {step:.1}, at most {longest}, \
-                 of the wave {:.1}, of learning {:.1}, a clock of the player {:.1}; a wave over 24 x 24 {}",
+                "{lattice} {}: instructions a decision {:.1}, a step of the published rule {step:.1}, the same at most {longest}, \
+                 a step of the wave {:.1}, a step of learning {:.1}, a clock of the player {:.1}; a wave over 24 x 24 {}",
                 board.name,
                 each(1, nothing),
                 each(3, flooded),
