@@ -179,17 +179,11 @@ pub(super) fn motion_name(motion: Motion) -> String {
 }
 
 fn inputs() -> String {
-    let inputs = [
-        ("GO", Inputs::GO, "A task is set."),
-        ("SIDE_LEFT", Inputs::SIDE_LEFT, "Of the two sides the left one is wanted."),
-        ("RIGHT", Inputs::RIGHT, "Obstacle on the right."),
-        ("LEFT", Inputs::LEFT, "Obstacle on the left."),
-        ("FRONT", Inputs::FRONT, "Obstacle in front; the route forces a turn by it."),
-        ("BEHIND", Inputs::BEHIND, "Obstacle behind."),
-        ("STOP", Inputs::STOP, "Stop; wins over all others."),
-        ("REVERSE", Inputs::REVERSE, "Drive backwards."),
-    ];
-    inputs.map(|(name, input, about)| define(&format!("AC_IN_{name}"), input.0.into(), about)).concat()
+    let line = |(name, input, about): (&str, Inputs, &str)| {
+        let [first, rest] = [&about[..1], &about[1..]];
+        define(&format!("AC_IN_{name}"), input.0.into(), &format!("{}{rest}.", first.to_uppercase()))
+    };
+    circuits::INPUTS.map(line).concat()
 }
 
 fn rule(lattice: Lattice) -> String {

@@ -2,18 +2,18 @@
 
 use super::sum;
 use crate::logic::{Circuit, Expr, Signal, sum_of_products};
-use activecell::control::{State, TABLE};
+use activecell::control::{Inputs, State, TABLE};
 
-/// What the inputs g0 to g7 mean.
-const INPUTS: [&str; 8] = [
-    "go, a task is set",
-    "of the two sides the left one is wanted",
-    "obstacle on the right",
-    "obstacle on the left",
-    "obstacle in front; the route forces a turn by it",
-    "obstacle behind",
-    "stop",
-    "reverse",
+/// The inputs g0 to g7: name, bit, meaning.
+pub(crate) const INPUTS: [(&str, Inputs, &str); 8] = [
+    ("GO", Inputs::GO, "a task is set"),
+    ("SIDE_LEFT", Inputs::SIDE_LEFT, "of the two sides the left one is wanted"),
+    ("RIGHT", Inputs::RIGHT, "obstacle on the right"),
+    ("LEFT", Inputs::LEFT, "obstacle on the left"),
+    ("FRONT", Inputs::FRONT, "obstacle in front; the route forces a turn by it"),
+    ("BEHIND", Inputs::BEHIND, "obstacle behind"),
+    ("STOP", Inputs::STOP, "stop; wins over all others"),
+    ("REVERSE", Inputs::REVERSE, "drive backwards"),
 ];
 
 /// The control unit's logic, from [`TABLE`]: the next state and the outputs q0 to q3 of the present one.
@@ -21,7 +21,7 @@ const INPUTS: [&str; 8] = [
 /// States that follow alike on every input share their formulas. The numbers 6 and 7, which are no states, act as calm,
 /// so that a register that was upset recovers at the next step.
 pub fn control() -> Circuit {
-    let meanings = INPUTS.iter().enumerate().map(|(i, about)| format!("\n  g{i}: {about}"));
+    let meanings = INPUTS.iter().enumerate().map(|(i, (_, _, about))| format!("\n  g{i}: {about}"));
     let meanings = meanings.collect::<Vec<_>>().concat();
     let about =
         format!("The control unit: next state and outputs of the present state. Its inputs:{meanings}");
@@ -102,6 +102,7 @@ mod tests {
 
     #[test]
     fn every_state_and_input_is_followed_as_in_the_table() {
+        assert!((0..8).all(|i| INPUTS[i].1.0 == 1 << i), "g0 to g7 in order");
         let circuit = control();
         circuit.check().unwrap();
         for number in 0..8 {

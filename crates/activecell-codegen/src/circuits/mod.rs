@@ -6,6 +6,7 @@ mod fabric;
 mod player;
 mod sector;
 
+pub(crate) use control::INPUTS;
 pub use control::control;
 pub use decision::decision;
 pub use fabric::fabric_cell;

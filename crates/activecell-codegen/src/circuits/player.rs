@@ -1,6 +1,6 @@
 //! The program player's logic as a circuit: from the motion that the program wants to the control unit's inputs.
 
-use super::sum;
+use super::{INPUTS, sum};
 use crate::logic::{Circuit, Expr, sum_of_products};
 use crate::model::player::{Motion, inputs};
 use activecell::control::Inputs;
@@ -33,23 +33,12 @@ pub fn player() -> Circuit {
     let wires = (0..8).map(|input| {
         let on = |values| described(values).is_some_and(|told| told.0 >> input & 1 == 1);
         let cubes = sum_of_products(9, on, |values| described(values).is_none());
-        circuit.wire(&format!("g{input}"), sum(&cubes, &variables), ABOUT[input])
+        circuit.wire(&format!("g{input}"), sum(&cubes, &variables), INPUTS[input].2)
     });
     let wires = wires.collect();
     circuit.output("g", Expr::Join(wires), "the control unit's inputs g0 to g7");
     circuit
 }
-
-const ABOUT: [&str; 8] = [
-    "go",
-    "the left side is wanted",
-    "obstacle on the right",
-    "obstacle on the left",
-    "obstacle in front, or a turn",
-    "obstacle behind",
-    "stop",
-    "reverse",
-];
 
 /// What the circuit is given.
 struct Told {
