@@ -81,6 +81,11 @@ pub(crate) const fn bits(number: u32) -> u32 {
     if bits == 0 { 1 } else { bits }
 }
 
+/// How many bits hold the numbers below `count`.
+pub(crate) const fn bits_below(count: u32) -> u32 {
+    bits(count.saturating_sub(1))
+}
+
 /// What `player_tb` is filled in with.
 pub(crate) struct PlayerBench {
     /// What the player does on a rough drive: a stretch a line.

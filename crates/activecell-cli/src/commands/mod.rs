@@ -1,4 +1,4 @@
-//! The commands, one file each.
+//! The commands, one file or folder each.
 
 mod calibrate;
 mod certificate;
@@ -10,7 +10,6 @@ mod fleet;
 mod generate;
 mod group;
 mod info;
-mod lifelong;
 mod load;
 mod outputs;
 mod relief;

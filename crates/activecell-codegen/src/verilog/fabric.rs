@@ -3,7 +3,7 @@
 use super::fabric_bench::bench;
 use super::module;
 use crate::colours::{Colours, goes, leads};
-use crate::images::bits;
+use crate::images::bits_below;
 use crate::template::fill;
 use crate::{SourceFile, circuits};
 use activecell::{Cell, Dir, Error, Lattice, Map};
@@ -50,11 +50,6 @@ pub(crate) fn checked(map: &Map) -> Result<(), Error> {
         return Err(Error::MapTooLarge { width, height, limit: MAX_FABRIC_CELLS });
     }
     Ok(())
-}
-
-/// How many bits hold the numbers below `count`.
-pub(crate) const fn bits_below(count: u32) -> u32 {
-    bits(count.saturating_sub(1))
 }
 
 /// What depends on the lattice alone.

@@ -1,7 +1,7 @@
 //! The bench of the fabric: its clocks, and what the model shows at each.
 
-use super::fabric::bits_below;
 use crate::SourceFile;
+use crate::images::bits_below;
 use crate::model::fabric::{Fabric, Inputs};
 use crate::template::fill;
 use activecell::{Cell, Map, Rng};

@@ -2,8 +2,9 @@
 
 use super::{bench_lines, entity, lanes};
 use crate::colours::{Colours, goes, leads};
+use crate::images::bits_below;
 use crate::template::fill;
-use crate::verilog::{bits_below, checked, neighbour};
+use crate::verilog::{checked, neighbour};
 use crate::{SourceFile, circuits, verilog};
 use activecell::{Dir, Error, Lattice, Map};
 

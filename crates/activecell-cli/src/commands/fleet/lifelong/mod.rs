@@ -3,9 +3,9 @@
 mod setting;
 mod written;
 
-use super::fleet::{duration, formats, peak_bytes, threads};
-use super::{Done, counted, outputs};
+use super::shared::{duration, formats, peak_bytes, threads};
 use crate::args::{AssignmentArg, FleetArgs, MotionArg, WrongArgument};
+use crate::commands::{Done, counted, outputs};
 use crate::terminal::Terminal;
 use activecell::{Journal, check_journal};
 use activecell_fleet::{Assignment, Lifelong, LifelongOptions};

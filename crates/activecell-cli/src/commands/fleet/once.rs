@@ -1,28 +1,23 @@
-//! `activecell fleet`: a plan for many robots at once.
+//! `activecell fleet` for robots that have one task each: a plan with an end.
 
-use super::group::{self, Group};
-use super::outputs::{self, Kind};
-use super::{Done, counted, lifelong, load, team};
-use crate::args::{FleetArgs, SizesArg, WrongArgument};
+use super::shared::{draw, duration, formats, peak_bytes, stated, threads};
+use crate::args::{FleetArgs, WrongArgument};
+use crate::commands::group::{self, Group};
+use crate::commands::{Done, counted, load, outputs, team};
 use crate::terminal::Terminal;
 use activecell::{Bodies, Cell, KeepOuts, Map, Plan, Team, check_keep_outs, check_plan};
 use activecell_fleet::{Ending, Floor, Limits, Options, Outcome, solve_past};
 use activecell_formats::files;
 use activecell_formats::fleet::FleetReport;
 use activecell_formats::plan::{PlanFile, PlanFormat, Stated};
-use activecell_picture::{FilmLimits, FleetPicture, FleetView, fleet_gif, fleet_png, fleet_svg};
+use activecell_picture::{FleetPicture, FleetView};
 use anyhow::Context;
-use std::path::Path;
-use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 
 /// How long to look for better plans where nobody says, in seconds.
 const TIME_LIMIT_S: f64 = 10.0;
 
-pub(crate) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done> {
-    if lifelong::is_asked(args)? {
-        return lifelong::run(args, terminal);
-    }
+pub(super) fn run(args: &FleetArgs, terminal: &Terminal) -> anyhow::Result<Done> {
     let (formats, pictures) = (formats(args)?, outputs::pictures(&args.picture)?);
     let map = load::map(&args.map, None, terminal)?.map;
     let team = team(args, &map, terminal)?;
@@ -111,49 +106,6 @@ fn options(args: &FleetArgs) -> Options {
     }
 }
 
-pub(super) fn threads(args: &FleetArgs) -> usize {
-    args.threads.map_or_else(|| available_parallelism().map_or(1, usize::from), usize::from)
-}
-
-/// The formats to save in; refuses what cannot be written before anything is planned.
-pub(super) fn formats(args: &FleetArgs) -> Result<Vec<PlanFormat>, WrongArgument> {
-    let written = || args.save.iter().chain(&args.picture);
-    outputs::once_each(written())?;
-    let mut sources = files::sources(&args.map.path);
-    sources.extend(args.scen.iter().chain(&args.group.strangers).cloned());
-    if let Some(SizesArg::File(path)) = &args.group.sizes {
-        sources.push(path.clone());
-    }
-    sources.extend(args.lifelong.tasks.iter().chain(&args.lifelong.agents).cloned());
-    let sources: Vec<_> = sources.iter().filter_map(|path| path.canonicalize().ok()).collect();
-    if let Some(path) = written().find(|path| path.canonicalize().is_ok_and(|it| sources.contains(&it))) {
-        let path = path.display();
-        return Err(WrongArgument(format!("{path}: the task is read from this file; write to another name")));
-    }
-    let format =
-        |path: &std::path::PathBuf| PlanFormat::of(path).map_err(|error| WrongArgument(error.to_string()));
-    args.save.iter().map(format).collect()
-}
-
-/// Draws the plan into every picture that was asked for.
-pub(super) fn draw(
-    pictures: &[(&Path, Kind)],
-    picture: &FleetPicture<'_>,
-    terminal: &Terminal,
-) -> anyhow::Result<()> {
-    for &(path, kind) in pictures {
-        let _working = terminal.working(format!("drawing {}", path.display()));
-        let bytes = match kind {
-            Kind::Svg => fleet_svg(picture).into_bytes(),
-            Kind::Png => fleet_png(picture)?,
-            Kind::Gif => fleet_gif(picture, &FilmLimits::default())?.gif,
-        };
-        files::write_atomically(path, &bytes)?;
-        terminal.detail(&format!("wrote {}", path.display()));
-    }
-    Ok(())
-}
-
 /// The plan as a file, with all that it holds.
 fn plan_file(
     args: &FleetArgs,
@@ -176,16 +128,6 @@ fn plan_file(
         keep_outs: keep_outs.all().to_vec(),
         stated,
         ..PlanFile::new(plan)
-    }
-}
-
-/// What every plan of this command states.
-pub(super) fn stated(args: &FleetArgs) -> Stated {
-    Stated {
-        map_file: args.map.path.file_name().map(|name| name.to_string_lossy().into_owned()),
-        solver: Some(concat!("activecell ", env!("CARGO_PKG_VERSION")).to_owned()),
-        seed: Some(args.seed),
-        ..Stated::default()
     }
 }
 
@@ -241,13 +183,6 @@ fn report(args: &FleetArgs, map: &Map, team: &Team, outcome: &Outcome, elapsed_m
     }
 }
 
-/// The most memory that this process has had, where the system tells.
-pub(super) fn peak_bytes() -> Option<u64> {
-    let status = std::fs::read_to_string(Path::new("/proc/self/status")).ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
-    Some(line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok()? * 1024)
-}
-
 fn text(report: &FleetReport, cut_off: Option<String>) -> String {
     let FleetReport { lower_bound, .. } = report;
     let robots = counted(report.robots as u64, "robot");
@@ -289,8 +224,4 @@ fn ending(report: &FleetReport) -> &'static str {
         (_, true) => "with its memory full",
         (_, false) => "with its memory full; take fewer robots",
     }
-}
-
-pub(super) fn duration(ms: f64) -> String {
-    if ms < 1e3 { format!("{ms:.1} ms") } else { format!("{:.1} s", ms / 1e3) }
 }

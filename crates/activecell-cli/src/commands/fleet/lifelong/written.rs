@@ -2,7 +2,7 @@
 
 use super::Setting;
 use crate::args::{FleetArgs, WrongArgument};
-use crate::commands::fleet;
+use crate::commands::fleet::shared;
 use crate::commands::outputs::Kind;
 use crate::terminal::Terminal;
 use activecell::{Cell, Dir, Journal, Lattice, News, Plan, Team};
@@ -77,7 +77,7 @@ fn output(
 
 /// The cells of the run, as a plan that ends where the robots are at its end.
 fn cells(args: &FleetArgs, setting: &Setting, journal: &Journal) -> anyhow::Result<PlanFile> {
-    let (lattice, stated) = (Some(setting.map.lattice()), fleet::stated(args));
+    let (lattice, stated) = (Some(setting.map.lattice()), shared::stated(args));
     Ok(PlanFile { lattice, stated, ..PlanFile::new(plan(journal)?) })
 }
 
@@ -104,5 +104,5 @@ pub(super) fn draw(
     let (map, view) = (&setting.map, FleetView::default());
     let picture =
         FleetPicture { map, title: &title, team: &team, plan: &plan, lower_bound: None, endless: true, view };
-    fleet::draw(pictures, &picture, terminal)
+    shared::draw(pictures, &picture, terminal)
 }
