@@ -1,16 +1,15 @@
 //! The footer: scale bar and legend, in as many rows as they need.
 
 use crate::colour::{
-    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, ORANGE_RIM, PAGE, PURPLE, PURPLE_TINT, Rgb,
-    TEXT, VERMILLION, YELLOW, traffic,
+    self, BLUE, BLUE_TINT, CLOSED, EDGE, GREEN, OBSTACLE, ORANGE, PAGE, PURPLE, PURPLE_TINT, Rgb, TEXT,
+    VERMILLION, traffic,
 };
-use crate::fleet;
 use crate::font;
+use crate::ink;
 use crate::layout::{Layout, round_length};
+use crate::marks;
 use crate::region;
-use crate::route;
 use crate::scene::{Line, Point, Shape, Text};
-use crate::simulation;
 use activecell::{Elevation, Map};
 
 /// Something that the legend explains.
@@ -112,10 +111,10 @@ impl Key {
             shapes.push(Shape::lines(vec![vec![[x + 3.0, y], [x + width - 3.0, y]]], line));
         };
         match self {
-            Self::Start => route::start_mark(shapes, middle, 0.62 * size),
-            Self::Target => route::target_mark(shapes, middle, 0.62 * size),
-            Self::Turn => shapes.push(route::turn_dot(middle, 0.3 * size)),
-            Self::Active => shapes.push(active_disc(middle, 0.45 * size)),
+            Self::Start => marks::start_mark(shapes, middle, 0.62 * size),
+            Self::Target => marks::target_mark(shapes, middle, 0.62 * size),
+            Self::Turn => shapes.push(marks::turn_dot(middle, 0.3 * size)),
+            Self::Active => shapes.push(marks::active_disc(middle, 0.45 * size)),
             Self::Route => band(shapes, BLUE_TINT, Line::new(BLUE, 0.26 * size)),
             Self::Trapped => {
                 let line = Line { dash: Some(0.4 * size), ..Line::new(PURPLE, 0.3 * size) };
@@ -144,7 +143,7 @@ impl Key {
                     shapes.push(Shape::Disc { centre, radius: 1.1, fill: PURPLE, line: None });
                 }
             }
-            Self::Contact => simulation::contact(shapes, middle, 0.36 * size),
+            Self::Contact => marks::contact(shapes, middle, 0.36 * size),
             Self::Mover | Self::Expected => {
                 let pale = matches!(self, Self::Expected);
                 let fill = if pale { ORANGE.mix(PAGE, 0.6) } else { PURPLE };
@@ -153,7 +152,7 @@ impl Key {
             Self::Found => {
                 let side = 0.95 * size;
                 let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
-                shapes.push(Shape::lines(simulation::hatching(&square, 4.0), Line::new(ORANGE, 1.4)));
+                shapes.push(Shape::lines(marks::hatching(&square, 4.0), Line::new(ORANGE, 1.4)));
                 let line = Some(Line::new(ORANGE, 1.6));
                 shapes.push(Shape::Path { runs: vec![square], closed: true, fill: None, line });
             }
@@ -178,28 +177,23 @@ impl Key {
                 let tint = |share| traffic::colour(traffic::tint(visits(share), most));
                 scale(shapes, [x, y], [width, size], tints as usize, tint);
             }
-            Self::RobotStart => shapes.push(fleet::start(middle, 1.3 * size, BLUE)),
-            Self::RobotTarget | Self::RobotEnd => shapes.push(fleet::target(middle, 1.5 * size, BLUE)),
+            Self::RobotStart => shapes.push(marks::robot_start(middle, 1.3 * size, BLUE)),
+            Self::RobotTarget | Self::RobotEnd => shapes.push(marks::robot_target(middle, 1.5 * size, BLUE)),
             Self::RobotWay => {
                 let line = Line { opacity: 0.7, ..Line::new(BLUE, 2.0) };
                 shapes.push(Shape::lines(vec![vec![[x + 3.0, y], [x + width - 3.0, y]]], line));
             }
             Self::Robot | Self::RobotGoingOn | Self::RobotAtRest => {
-                fleet::three(shapes, [x, y], size, self == Self::RobotAtRest);
+                marks::three_robots(shapes, [x, y], size, self == Self::RobotAtRest);
             }
             Self::TargetCell => {
                 let side = 0.95 * size;
                 let square = rectangle(middle[0] - side / 2.0, y - side / 2.0, side, side);
-                shapes.push(Shape::area(vec![square], fleet::tint(6, 1)));
+                shapes.push(Shape::area(vec![square], ink::tint(6, 1)));
             }
             _ => {}
         }
     }
-}
-
-/// The cell that is active now.
-pub(crate) fn active_disc(centre: Point, radius: f64) -> Shape {
-    Shape::Disc { centre, radius, fill: YELLOW, line: Some(Line::new(ORANGE_RIM, (radius * 0.2).max(1.4))) }
 }
 
 /// A band of `count` swatches whose colours run from share 0 to share 1.

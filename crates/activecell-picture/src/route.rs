@@ -1,11 +1,10 @@
 //! The route: tinted cells, the line through them, steps, turns, and the marks of start and target.
 
 use crate::RoutePicture;
-use crate::colour::{
-    BLUE, BLUE_TINT, GREEN, ORANGE, ORANGE_RIM, PAGE, PURPLE, PURPLE_TINT, TEXT, VERMILLION,
-};
+use crate::colour::{BLUE, BLUE_TINT, PAGE, PURPLE, PURPLE_TINT, TEXT};
 use crate::layout::Layout;
 use crate::legend::Key;
+use crate::marks::{start_mark, target_mark, turn_dot};
 use crate::region;
 use crate::scene::{Line, Point, Shape};
 use activecell::Cell;
@@ -180,31 +179,6 @@ pub(crate) fn marks(layout: &Layout, picture: &RoutePicture<'_>) -> Vec<Shape> {
         start_mark(&mut shapes, layout.centre(picture.from), if same { radius * 0.85 } else { radius });
     }
     shapes
-}
-
-/// A disc with an S.
-pub(crate) fn start_mark(shapes: &mut Vec<Shape>, centre: Point, radius: f64) {
-    let line = Some(Line::new(PAGE, 1.6));
-    shapes.push(Shape::Disc { centre, radius, fill: GREEN, line });
-    shapes.push(Shape::label(centre, radius * 1.2, true, PAGE, "S".into()));
-}
-
-/// A rounded square with an F.
-pub(crate) fn target_mark(shapes: &mut Vec<Shape>, [x, y]: Point, radius: f64) {
-    let round = radius * 0.25;
-    let a = radius * 0.94 - round;
-    let square = vec![vec![[x - a, y - a], [x + a, y - a], [x + a, y + a], [x - a, y + a]]];
-    for (colour, width) in [(PAGE, 2.0 * round + 1.6), (VERMILLION, 2.0 * round)] {
-        let line = Some(Line::new(colour, width));
-        shapes.push(Shape::Path { runs: square.clone(), closed: true, fill: Some(colour), line });
-    }
-    shapes.push(Shape::label([x, y], radius * 1.2, true, PAGE, "F".into()));
-}
-
-/// The dot of a turn.
-pub(crate) fn turn_dot(centre: Point, radius: f64) -> Shape {
-    let line = Some(Line::new(ORANGE_RIM, (radius * 0.3).clamp(0.6, 1.2)));
-    Shape::Disc { centre, radius, fill: ORANGE, line }
 }
 
 /// A run without the points that no one would miss: those in the middle of a straight piece, and those closer

@@ -4,8 +4,9 @@ use crate::animation::{Film, Stage};
 use crate::colour::{BLUE, BLUE_TINT, GREEN, ORANGE, PAGE, PURPLE, Rgb, VERMILLION};
 use crate::figure::Figure;
 use crate::layout::{Layout, MOVING, STILL};
-use crate::legend::{Key, active_disc};
-use crate::route::{simplified, start_mark, target_mark};
+use crate::legend::Key;
+use crate::marks::{active_disc, contact, hatching, start_mark, target_mark};
+use crate::route::simplified;
 use crate::scene::{Line, Point, Scene, Shape};
 use crate::{Error, encode_png, raster, region, svg};
 use activecell::sense::Change;
@@ -150,31 +151,6 @@ fn found(layout: &Layout, cells: &[Cell]) -> Vec<Shape> {
     shapes
 }
 
-/// Lines from lower left to upper right through a convex shape, so far apart.
-pub(crate) fn hatching(corners: &[Point], step: f64) -> Vec<Vec<Point>> {
-    let heights = corners.iter().map(|&[x, y]| x + y);
-    let (low, high) =
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
-    let mut runs = Vec::new();
-    let mut at = (low / step).floor() * step + step;
-    while at < high {
-        let mut run: Vec<Point> = Vec::new();
-        for (i, a) in corners.iter().enumerate() {
-            let b = corners[(i + 1) % corners.len()];
-            let (from, to) = (a[0] + a[1] - at, b[0] + b[1] - at);
-            if (from < 0.0) != (to < 0.0) {
-                let share = from / (from - to);
-                run.push([a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]);
-            }
-        }
-        if run.len() == 2 {
-            runs.push(run);
-        }
-        at += step;
-    }
-    runs
-}
-
 fn ends(layout: &Layout, picture: &SimulationPicture<'_>) -> Vec<Shape> {
     let stride = picture.ends_m.len().div_ceil(MOST_ENDS).max(1);
     let points = picture.ends_m.iter().step_by(stride).map(|&at_m| layout.floor_point(picture.world, at_m));
@@ -185,14 +161,6 @@ fn ends(layout: &Layout, picture: &SimulationPicture<'_>) -> Vec<Shape> {
 /// Whether a point lies in the map's box, outside which titles and legends are.
 fn is_on_map(layout: &Layout, point: Point) -> bool {
     (0..2).all(|axis| (0.0..=layout.map_size[axis]).contains(&(point[axis] - layout.origin[axis])))
-}
-
-/// A cross on white.
-pub(crate) fn contact(shapes: &mut Vec<Shape>, [x, y]: Point, arm: f64) {
-    let runs =
-        vec![vec![[x - arm, y - arm], [x + arm, y + arm]], vec![[x - arm, y + arm], [x + arm, y - arm]]];
-    shapes.push(Shape::lines(runs.clone(), Line::new(PAGE, 0.9 * arm)));
-    shapes.push(Shape::lines(runs, Line::new(VERMILLION, 0.45 * arm)));
 }
 
 /// One moment of a drive.

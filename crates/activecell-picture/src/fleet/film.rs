@@ -1,11 +1,11 @@
 //! A group moving, as a GIF: frames are made of colour numbers, without drawing any shape anew but the robots' discs.
 
-use super::ink::{self, Inks};
 use super::{FleetPicture, thousands, title};
 use crate::Error;
 use crate::colour::{EDGE, FLOOR, GREEN, GREEN_TINT, GRID, OBSTACLE, PAGE, Rgb, TEXT};
 use crate::figure::Figure;
 use crate::font;
+use crate::ink::{self, Inks};
 use crate::layout::{Layout, MOVING, Style};
 use crate::legend::Key;
 use crate::palette::Palette;

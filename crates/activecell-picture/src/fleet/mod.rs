@@ -1,15 +1,11 @@
 //! Groups of robots: their ways or their traffic, still, and all of them moving.
 
 mod film;
-mod ink;
 mod still;
 
-use crate::scene::{Line, Point, Shape};
 use crate::{Error, encode_png, svg};
 use activecell::{Map, Plan, Team};
 pub use film::{FilmLimits, FleetFilm};
-pub(crate) use ink::tint;
-pub(crate) use still::{start, target};
 
 /// A plan for a group, to be drawn.
 ///
@@ -95,17 +91,6 @@ pub fn fleet_png(picture: &FleetPicture<'_>) -> Result<Vec<u8>, Error> {
 /// ```
 pub fn fleet_gif(picture: &FleetPicture<'_>, limits: &FilmLimits) -> Result<FleetFilm, Error> {
     film::make(picture, limits)
-}
-
-/// Three robots side by side, for the legend.
-pub(crate) fn three(shapes: &mut Vec<Shape>, [x, y]: Point, size: f64, at_rest: bool) {
-    let radius = 0.42 * size;
-    for (i, hue) in [1, 8, 15].into_iter().enumerate() {
-        let centre = [x + (0.5 + 0.95 * i as f64) * size, y];
-        let (fill, rim) = if at_rest { (tint(hue, 2), 0.28 * radius) } else { (ink::hue(hue), 0.0) };
-        let line = (rim > 0.0).then(|| Line::new(ink::hue(hue), rim));
-        shapes.push(Shape::Disc { centre, radius: radius - rim / 2.0, fill, line });
-    }
 }
 
 /// The title with the numbers of the plan.

@@ -1,10 +1,12 @@
 //! Still pictures of a group: the ways of a few robots, the traffic of many.
 
-use super::{FleetPicture, FleetView, ink, title};
-use crate::colour::{PAGE, Rgb, traffic};
+use super::{FleetPicture, FleetView, title};
+use crate::colour::{Rgb, traffic};
 use crate::figure::Figure;
+use crate::ink;
 use crate::layout::{Layout, STILL};
 use crate::legend::Key;
+use crate::marks::{robot_start, robot_target};
 use crate::route::simplified;
 use crate::scene::{Line, Point, Scene, Shape};
 use activecell::{Cell, Map, Plan};
@@ -55,7 +57,9 @@ fn marks_and_ways(layout: &Layout, picture: &FleetPicture<'_>) -> Vec<Shape> {
     let on_map = |cell: Cell| map.contains(cell).then(|| layout.centre(cell));
     let mut shapes = Vec::new();
     for (robot, &hue) in hues.iter().enumerate().take(robots) {
-        shapes.extend(on_map(picture.team.starts()[robot]).map(|at| start(at, layout.cell, ink::hue(hue))));
+        shapes.extend(
+            on_map(picture.team.starts()[robot]).map(|at| robot_start(at, layout.cell, ink::hue(hue))),
+        );
     }
     let width = (layout.cell * 0.085).clamp(1.0, 3.0);
     for (robot, &hue) in hues.iter().enumerate().take(robots) {
@@ -71,7 +75,7 @@ fn marks_and_ways(layout: &Layout, picture: &FleetPicture<'_>) -> Vec<Shape> {
         }
     }
     for (&cell, &hue) in picture.team.targets().iter().zip(&hues) {
-        shapes.extend(on_map(cell).map(|at| target(at, layout.cell, ink::hue(hue))));
+        shapes.extend(on_map(cell).map(|at| robot_target(at, layout.cell, ink::hue(hue))));
     }
     shapes
 }
@@ -81,17 +85,6 @@ fn marks_and_ways(layout: &Layout, picture: &FleetPicture<'_>) -> Vec<Shape> {
 fn beside(robot: usize, cell: f64) -> Point {
     [0.754_877_666_246_693, 0.569_840_290_998_053]
         .map(|share| ((0.5 + share * robot as f64).fract() - 0.5) * SPREAD * cell)
-}
-
-/// A hollow disc: a robot starts here.
-pub(crate) fn start(centre: Point, cell: f64, colour: Rgb) -> Shape {
-    let line = Some(Line::new(colour, (cell * 0.09).clamp(1.2, 3.0)));
-    Shape::Disc { centre, radius: 0.33 * cell, fill: PAGE, line }
-}
-
-/// A full disc: a robot's target.
-pub(crate) fn target(centre: Point, cell: f64, colour: Rgb) -> Shape {
-    Shape::Disc { centre, radius: 0.26 * cell, fill: colour, line: Some(Line::new(PAGE, 1.2)) }
 }
 
 /// How often robots enter each cell.
