@@ -32,7 +32,9 @@ impl Navigator {
             Lattice::Square => "squares",
             Lattice::Hex => "hexagons, odd rows shifted right",
         };
-        let sector_bits: u32 = sector(lattice).outputs().map(|wire| wire.port.width).sum();
+        let sector = sector(lattice);
+        let names: Vec<&str> = sector.inputs.iter().map(|port| port.name.as_str()).collect();
+        let sector_bits: u32 = sector.outputs().map(|wire| wire.port.width).sum();
         let values = vec![
             ("LATTICE", lattice.to_string()),
             ("CELLS", cells.into()),
@@ -45,7 +47,7 @@ impl Navigator {
             ("LANES", lattice.degree().to_string()),
             ("TOP", (lattice.degree() - 1).to_string()),
             ("SECTOR_TOP", (sector_bits - 1).to_string()),
-            ("BEARING_NAMES", comparisons(lattice, true).join(", ")),
+            ("COMPARISONS", names.join(", ")),
             ("CLOCKS", clocks.len().to_string()),
             ("TASKS", tasks.to_string()),
         ];
@@ -54,23 +56,15 @@ impl Navigator {
     }
 }
 
-/// What the bearing gives and the sector takes; to the decision the bearing also says whether the target is near.
-fn comparisons(lattice: Lattice, with_near: bool) -> Vec<String> {
-    let inputs = sector(lattice).inputs.into_iter().map(|port| port.name);
-    inputs.chain(with_near.then(|| "is_near".into())).collect()
-}
-
-/// The ports of the bearing and of the sector, each connected to the wire of its name, four a line.
-pub(crate) fn ports(
+/// The ports of the comparisons, which the bearing gives and the sector takes, each connected to the wire of its name.
+pub(crate) fn comparison_ports(
     lattice: Lattice,
     indent: &str,
     connected: impl Fn(&str) -> String,
-) -> [(&'static str, String); 2] {
-    [("BEARING_PORTS", true), ("SECTOR_PORTS", false)].map(|(name, with_near)| {
-        let ports: Vec<String> = comparisons(lattice, with_near).iter().map(|name| connected(name)).collect();
-        let lines: Vec<String> = ports.chunks(4).map(|ports| ports.join(", ")).collect();
-        (name, lines.join(&format!(",\n{indent}")))
-    })
+) -> (&'static str, String) {
+    let ports: Vec<String> = sector(lattice).inputs.iter().map(|port| connected(&port.name)).collect();
+    let lines: Vec<String> = ports.chunks(4).map(|ports| ports.join(", ")).collect();
+    ("COMPARISON_PORTS", lines.join(&format!(",\n{indent}")))
 }
 
 /// What is loaded with a clock's edge, from where to where, and what is shown before it.

@@ -3,7 +3,7 @@
 use super::module;
 use crate::SourceFile;
 use crate::circuits::{decision, sector};
-use crate::navigator::{Navigator, ports};
+use crate::navigator::{Navigator, comparison_ports};
 use crate::template::fill;
 use crate::window::{self, Gathered};
 use activecell::{Error, Lattice, Map};
@@ -23,8 +23,11 @@ use activecell::{Error, Lattice, Map};
 pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
     let lattice = map.lattice();
     let Navigator { banks, mut values, trace } = Navigator::of(map)?;
-    values.extend(ports(lattice, "        ", |name| format!(".{name}({name})")));
-    values.extend([("NEIGHBOURHOOD", neighbourhood(lattice)), ("MOVES", moves(lattice))]);
+    values.extend([
+        comparison_ports(lattice, "        ", |name| format!(".{name}({name})")),
+        ("NEIGHBOURHOOD", neighbourhood(lattice)),
+        ("MOVES", moves(lattice)),
+    ]);
     let bearing = match lattice {
         Lattice::Square => include_str!("templates/bearing_square.v"),
         Lattice::Hex => include_str!("templates/bearing_hex.v"),

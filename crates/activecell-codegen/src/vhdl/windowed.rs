@@ -2,7 +2,7 @@
 
 use super::{bench_lines, entity, lanes};
 use crate::circuits::{decision, sector};
-use crate::navigator::{Navigator, ports};
+use crate::navigator::{Navigator, comparison_ports};
 use crate::template::fill;
 use crate::window::{self, Gathered};
 use crate::{Banks, SourceFile};
@@ -25,8 +25,11 @@ use activecell::{Error, Lattice, Map};
 pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
     let lattice = map.lattice();
     let Navigator { banks, mut values, trace } = Navigator::of(map)?;
-    values.extend(ports(lattice, "            ", |name| format!("{name} => {name}")));
-    values.extend([("NEIGHBOURHOOD", neighbourhood(lattice)), ("MOVES", moves(lattice))]);
+    values.extend([
+        comparison_ports(lattice, "            ", |name| format!("{name} => {name}")),
+        ("NEIGHBOURHOOD", neighbourhood(lattice)),
+        ("MOVES", moves(lattice)),
+    ]);
     let rtl = |name: &str, text: String| SourceFile::new(format!("rtl/{name}.vhd"), text);
     let bearing = match lattice {
         Lattice::Square => include_str!("templates/bearing_square.vhd"),
