@@ -19,11 +19,13 @@ pub(crate) mod colours;
 mod images;
 pub mod logic;
 pub mod model;
+mod navigator;
 mod source;
 mod template;
 mod text;
 pub mod verilog;
 pub mod vhdl;
+mod window;
 
 pub use banks::{Banks, MOST_STORED};
 pub use bundle::{Bundle, Language, Order, Size, generate, long_way};

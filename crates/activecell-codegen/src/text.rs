@@ -11,6 +11,16 @@ pub(crate) fn whole(formula: &str) -> &str {
         .unwrap_or(formula)
 }
 
+/// Operands with an operator between them, in brackets; one alone stays as it is.
+pub(crate) fn joined(operands: &[String], operator: &str) -> String {
+    if let [operand] = operands { operand.clone() } else { format!("({})", operands.join(operator)) }
+}
+
+/// A long sum, each product in a line of its own.
+pub(crate) fn lines(sum: &str, or: &str) -> String {
+    if sum.len() < 90 { sum.into() } else { sum.replace(&format!("){or}("), &format!(")\n       {or}(")) }
+}
+
 fn is_balanced(formula: &str) -> bool {
     let mut depth = 0;
     formula.chars().all(|c| {

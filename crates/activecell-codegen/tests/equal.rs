@@ -24,11 +24,6 @@ fn modules() -> Vec<(Circuit, u32)> {
         .collect()
 }
 
-/// Every other bit of the second ring: ahead, or between.
-fn every_second(ring2: u32, first: u32, lanes: u32) -> u32 {
-    (0..lanes).map(|lane| (ring2 >> (2 * lane + first) & 1) << lane).sum()
-}
-
 /// What the core gives for all inputs: the inputs' ports and the outputs' ports, each from the lowest bit on.
 fn core(circuit: &Circuit) -> Box<dyn Iterator<Item = (u32, u32)>> {
     for lattice in Lattice::ALL {
@@ -51,18 +46,16 @@ fn core(circuit: &Circuit) -> Box<dyn Iterator<Item = (u32, u32)>> {
 fn decisions(lattice: Lattice) -> impl Iterator<Item = (u32, u32)> {
     let lanes = u32::from(lattice.degree());
     (0..1u32 << (3 * lanes)).flat_map(move |around| {
-        let ring1 = around & ((1 << lanes) - 1);
-        let [ahead, between] = [0, 1].map(|first| every_second(around >> lanes, first, lanes));
-        let cells = ring1 | ahead << lanes | between << (2 * lanes);
+        let bits = circuits::neighbourhood(lattice, [0, 1, 2].map(|group| around >> (group * lanes)));
         Sector::all(lattice).flat_map(move |sector| {
             [false, true].map(|near| {
                 let sector_bits = if lattice == Lattice::Square { 3 } else { 4 };
                 let told = u32::from(sector.number()) | u32::from(near) << sector_bits;
-                let decided = match decide(lattice, sector, near, around) {
+                let decided = match decide(lattice, sector, near, bits) {
                     Decision::Move(dir) => 1 << dir.0,
                     Decision::Enclosed => 1 << lanes,
                 };
-                (cells | told << (3 * lanes), decided)
+                (around | told << (3 * lanes), decided)
             })
         })
     })

@@ -6,10 +6,10 @@ mod common;
 
 use activecell::{Cell, Lattice, Map, Outcome, Rng, Rule};
 use activecell_codegen::model::{Shown, Status, Windowed};
-use activecell_codegen::{Banks, SourceFile, verilog};
+use activecell_codegen::{Banks, verilog};
 use activecell_formats::files::{ReadOptions, read_map};
 use common::cxxrtl::Simulation;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 type Task = (Cell, Cell);
 /// What is loaded with a clock's edge, and what is shown before it.
@@ -42,19 +42,11 @@ fn trace(map: &Map, tasks: &[Task]) -> Vec<Clock> {
     clocks
 }
 
-fn write(folder: &Path, files: &[SourceFile]) {
-    for file in files {
-        let path = folder.join(&file.path);
-        std::fs::create_dir_all(path.parent().expect("a folder")).expect("the folder can be made");
-        std::fs::write(path, &file.text).expect("the file can be written");
-    }
-}
-
 /// The navigator of all maps of the size of this one.
 fn compile(tools: &[PathBuf; 2], map: &Map) -> Simulation {
     let lattice = map.lattice();
     let folder = common::folder(&format!("windowed_{lattice}_{}x{}", map.width(), map.height()));
-    write(&folder, &verilog::windowed(map).unwrap());
+    common::write(&folder, &verilog::windowed(map).unwrap());
     let script =
         format!("read_verilog rtl/*.v; hierarchy -check -top windowed_{lattice}; proc; flatten; opt");
     let bank = |i: usize| {
@@ -194,7 +186,7 @@ fn windows_are_the_cells_of_the_map() {
     for (width, height) in [(64, 64), (62, 30)] {
         let map = Map::random(Lattice::Square, width, height, 0.4, 9).unwrap();
         let folder = common::folder(&format!("window_{width}x{height}"));
-        write(&folder, &verilog::windowed(&map).unwrap());
+        common::write(&folder, &verilog::windowed(&map).unwrap());
         let script = "read_verilog rtl/map_window.v rtl/map_bank.v; hierarchy -check -top map_window; proc; flatten; opt";
         let simulation = Simulation::compile(&tools, &folder, script, include_str!("windowed_sim/window.cc"));
         let around = |cell: Cell, reach: i32| {
@@ -230,7 +222,7 @@ fn test_benches_pass_and_find_faults() {
             let map = Map::random(lattice, width, height, 0.2, i as u64).unwrap();
             let folder = common::folder(&format!("bench_{lattice}_{width}x{height}"));
             let mut files = verilog::windowed(&map).unwrap();
-            write(&folder, &files);
+            common::write(&folder, &files);
             let sources = files.iter().map(|file| &file.path).filter(|path| !path.ends_with("hex"));
             let mut compile = common::command(&iverilog, &folder);
             common::run(compile.args(["-g2005", "-o", "bench.vvp"]).args(sources));
@@ -242,7 +234,7 @@ fn test_benches_pass_and_find_faults() {
             let end = trace.text.len() - 2;
             let other = if &trace.text[end..=end] == "0" { "8" } else { "0" };
             trace.text.replace_range(end..=end, other);
-            write(&folder, &files);
+            common::write(&folder, &files);
             let told = common::run(common::command(&vvp, &folder).args(["-n", "bench.vvp"]));
             assert!(told.starts_with("FAIL windowed") && !told.contains("PASS"), "{told}");
         }

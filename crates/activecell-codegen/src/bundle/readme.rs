@@ -33,7 +33,6 @@ pub(super) fn readme(language: Language, order: Option<&Order<'_>>, parts: &Part
             }),
         ),
     ];
-    let values = values.each_ref().map(|(name, value)| (*name, value.as_str()));
     SourceFile::new("README.md", fill(template, &values))
 }
 

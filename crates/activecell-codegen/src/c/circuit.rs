@@ -2,7 +2,7 @@
 
 use crate::SourceFile;
 use crate::logic::{Circuit, Expr, Port, Signal, Wire, mask};
-use crate::text::whole;
+use crate::text::{joined, whole};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A circuit as a function without state: `static`, its name and its types prefixed `ac_`. Lanes are bits of `uint32_t`.
@@ -317,10 +317,6 @@ fn factors(circuit: &Circuit, parts: &[Expr]) -> Vec<String> {
 
 fn bracketed(text: &str) -> String {
     if text.starts_with('(') && whole(text) != text { text.into() } else { format!("({text})") }
-}
-
-fn joined(parts: &[String], operator: &str) -> String {
-    if let [part] = parts { part.clone() } else { format!("({})", parts.join(operator)) }
 }
 
 /// Lanes are easier to see in hexadecimal digits.

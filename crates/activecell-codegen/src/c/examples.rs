@@ -2,6 +2,7 @@
 
 use super::Footprint;
 use crate::SourceFile;
+use crate::circuits::neighbourhood;
 use crate::template::fill;
 use activecell::rule::{Decision, Sector, decide};
 use activecell::{Dir, Lattice};
@@ -82,7 +83,8 @@ pub(super) fn checksum(lattice: Lattice) -> u32 {
     (0..0x1_0000u32).fold(2_166_136_261, |sum, number| {
         let input = number.wrapping_mul(2_654_435_769);
         let sector = sectors[(input >> 1) as usize % sectors.len()];
-        let next = match decide(lattice, sector, input & 1 == 1, neighbourhood(input >> 4, lanes)) {
+        let groups = [0, 1, 2].map(|group| input >> (4 + group * lanes));
+        let next = match decide(lattice, sector, input & 1 == 1, neighbourhood(lattice, groups)) {
             Decision::Move(Dir(number)) => number.into(),
             Decision::Enclosed => ENCLOSED,
         };
@@ -92,11 +94,3 @@ pub(super) fn checksum(lattice: Lattice) -> u32 {
 
 /// `AC_ENCLOSED`.
 const ENCLOSED: u32 = 9;
-
-/// A neighbourhood as the core has it, from three groups of lanes: the neighbours, the cells ahead of them, those between.
-fn neighbourhood(groups: u32, lanes: u32) -> u32 {
-    let lane = |group: u32, lane: u32| groups >> (group * lanes + lane) & 1;
-    (0..lanes)
-        .map(|i| lane(0, i) << i | lane(1, i) << (lanes + 2 * i) | lane(2, i) << (lanes + 2 * i + 1))
-        .sum()
-}

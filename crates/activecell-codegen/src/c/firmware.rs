@@ -189,7 +189,7 @@ fn inputs() -> String {
 fn rule(lattice: Lattice) -> String {
     let [right, down] = lattice::neighbours(lattice);
     let (parities, parity) = if lattice == Lattice::Hex { ("2", "cell.y & 1U") } else { ("1", "0") };
-    fill(
+    fill::<&str>(
         include_str!("templates/ac_rule.c"),
         &[
             ("DECIDE_FUNCTION", &function(&circuits::decision(lattice))),
@@ -221,7 +221,7 @@ fn wave(lattice: Lattice) -> String {
         // Rows are counted from 1 there.
         Lattice::Hex => "        const bool is_odd = (row & 1U) == 0U;\n",
     };
-    fill(
+    fill::<&str>(
         include_str!("templates/ac_wave.c"),
         &[
             ("PLANES", &lattice::planes(lattice).to_string()),
@@ -261,7 +261,7 @@ fn floor(map: &Map) -> String {
             text += &format!("    {}\n", words.join(" "));
         }
     }
-    fill(
+    fill::<&str>(
         include_str!("templates/ac_map.c"),
         &[
             ("WIDTH", &shape.width.to_string()),

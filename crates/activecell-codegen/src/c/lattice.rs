@@ -3,8 +3,9 @@
 use super::circuit::function;
 use crate::circuits;
 use crate::logic::{Circuit, Expr};
+use crate::window::{Offset, lanes};
+use activecell::Lattice;
 use activecell::rule::Sector;
-use activecell::{Cell, Dir, Lattice};
 
 /// The rows of the window, from two above the cell on.
 const ROWS: [&str; 5] = ["far_above", "above", "level", "below", "far_below"];
@@ -51,25 +52,6 @@ fn sectors(lattice: Lattice) -> String {
         };
     }
     text
-}
-
-/// Columns to the right of a cell, in an even and an odd row, and rows down.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Offset {
-    columns: [i32; 2],
-    rows: i32,
-}
-
-impl Offset {
-    fn of(place: impl Fn(Cell) -> Cell) -> Self {
-        let [even, odd] = [Cell::new(10, 10), Cell::new(10, 11)];
-        let columns = [place(even).x - even.x, place(odd).x - odd.x];
-        Self { columns, rows: place(even).y - even.y }
-    }
-
-    fn of_dir(lattice: Lattice, dir: Dir) -> Self {
-        Self::of(|cell| lattice.neighbour(cell, dir))
-    }
 }
 
 /// The tables of [`Lattice::neighbour`]: columns to the right and rows down, each and one more.
@@ -120,19 +102,13 @@ pub(super) fn slices(lattice: Lattice) -> String {
 
 /// The lanes of the window, gathered from those rows: the neighbours, what lies ahead of them, what between them.
 pub(super) fn window(lattice: Lattice) -> String {
-    [
-        lanes(lattice, "ring1", |cell, dir| lattice.neighbour(cell, dir)),
-        lanes(lattice, "ahead", |cell, dir| lattice.ring2(cell, 2 * dir.0)),
-        lanes(lattice, "between", |cell, dir| lattice.ring2(cell, 2 * dir.0 + 1)),
-    ]
-    .join("\n")
+    lanes(lattice).map(|(name, offsets)| gathered(lattice, name, &offsets)).join("\n")
 }
 
 /// A group of them, the last lane first.
-fn lanes(lattice: Lattice, name: &str, place: impl Fn(Cell, Dir) -> Cell) -> String {
+fn gathered(lattice: Lattice, name: &str, offsets: &[Offset]) -> String {
     let mut text = String::new();
-    for dir in lattice.dirs().rev() {
-        let offset = Offset::of(|cell| place(cell, dir));
+    for offset in offsets.iter().rev() {
         let aside = i32::from(lattice == Lattice::Hex) * (offset.rows & 1);
         assert_eq!(offset.columns[1] - offset.columns[0], aside, "rows of the window shift as a whole");
         let (row, bit) = (ROWS[(offset.rows + 2) as usize], offset.columns[0] + 2);

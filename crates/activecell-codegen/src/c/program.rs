@@ -90,7 +90,7 @@ impl Program<'_> {
         } else {
             ("AC_PROGRAM_COUNT", segments)
         };
-        fill(
+        fill::<&str>(
             include_str!("templates/ac_program.c"),
             &[
                 ("COUNT", &self.segments.len().to_string()),

@@ -81,6 +81,24 @@ pub fn decision(lattice: Lattice) -> Circuit {
     circuit
 }
 
+/// The neighbourhood as the core has it ([`activecell::rule::neighbourhood`]), from the lanes that [`decision`] is given:
+/// the neighbours, what lies ahead of each, and what between it and the next one. Bits above the lanes do not count.
+///
+/// ```
+/// use activecell::{Cell, Lattice, Map, rule};
+/// use activecell_codegen::circuits;
+/// // From the middle: an obstacle in the north, one ahead of the east, one between south and west.
+/// let map = Map::parse(Lattice::Square, ".....\n..#..\n....#\n.#...\n.....")?;
+/// let bits = circuits::neighbourhood(Lattice::Square, [0b0001, 0b0010, 0b0100]);
+/// assert_eq!(bits, rule::neighbourhood(&map, Cell::new(2, 2)));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+pub fn neighbourhood(lattice: Lattice, [ring1, ahead, between]: [u32; 3]) -> u32 {
+    let lanes = u32::from(lattice.degree());
+    let every_second = |bits: u32| (0..lanes).map(|lane| (bits >> lane & 1) << (2 * lane)).sum::<u32>();
+    ring1 & mask(lanes) | (every_second(ahead) | every_second(between) << 1) << lanes
+}
+
 /// What the lanes and the numbers of the sectors mean.
 fn about(lattice: Lattice) -> String {
     let lanes: Vec<String> =
@@ -205,11 +223,6 @@ mod tests {
     use super::*;
     use activecell::rule::{Decision, decide};
 
-    /// Every other bit of the second ring: ahead, or between.
-    fn every_second(ring2: u32, first: u32, lanes: u32) -> u32 {
-        (0..lanes).map(|lane| (ring2 >> (2 * lane + first) & 1) << lane).sum()
-    }
-
     /// 4,096 neighbourhoods × 8 sectors, 262,144 × 12, each with and without the target near.
     #[test]
     fn every_input_decides_as_the_core() {
@@ -217,12 +230,13 @@ mod tests {
             let circuit = decision(lattice);
             circuit.check().unwrap();
             let lanes = u32::from(lattice.degree());
-            for bits in 0..1u32 << (3 * lanes) {
-                let [ahead, between] = [0, 1].map(|first| every_second(bits >> lanes, first, lanes));
+            for around in 0..1u32 << (3 * lanes) {
+                let [ring1, ahead, between] = [0, 1, 2].map(|group| around >> (group * lanes) & mask(lanes));
+                let bits = neighbourhood(lattice, [ring1, ahead, between]);
                 for sector in Sector::all(lattice) {
                     for near in [false, true] {
                         let number = sector.number().into();
-                        let inputs = [bits & mask(lanes), ahead, between, number, near.into()];
+                        let inputs = [ring1, ahead, between, number, near.into()];
                         let expected = match decide(lattice, sector, near, bits) {
                             Decision::Move(dir) => [lane(dir), 0],
                             Decision::Enclosed => [0, 1],

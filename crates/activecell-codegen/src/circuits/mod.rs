@@ -8,7 +8,7 @@ mod sector;
 
 pub(crate) use control::INPUTS;
 pub use control::control;
-pub use decision::decision;
+pub use decision::{decision, neighbourhood};
 pub use fabric::fabric_cell;
 pub use player::player;
 pub use sector::{Bearing, sector};

@@ -1,7 +1,7 @@
 //! Circuits as modules.
 
 use crate::logic::{Circuit, Expr, Port, Signal, Wire};
-use crate::text::{Cases, whole};
+use crate::text::{Cases, joined, lines, whole};
 
 /// A circuit as a module without state.
 pub fn module(circuit: &Circuit) -> String {
@@ -29,7 +29,7 @@ fn statement(circuit: &Circuit, wire: &Wire) -> String {
     let Port { name, width, about } = &wire.port;
     let bits = if *width == 1 { String::new() } else { format!("{} ", range(*width)) };
     let declaration = format!("wire {bits}{name}");
-    let value = |expr: &Expr| lines(whole(&formula(circuit, expr)));
+    let value = |expr: &Expr| lines(whole(&formula(circuit, expr)), " | ");
     match &wire.expr {
         Expr::Lookup { table, width, index } => {
             let (function, call) = lookup(circuit, wire, table, *width, *index);
@@ -38,11 +38,6 @@ fn statement(circuit: &Circuit, wire: &Wire) -> String {
         expr if wire.is_output => format!("\n    assign {name} = {};\n", value(expr)),
         expr => format!("\n    // {about}\n    {declaration} = {};\n", value(expr)),
     }
-}
-
-/// A long sum, each product in a line of its own.
-fn lines(formula: &str) -> String {
-    if formula.len() < 90 { formula.into() } else { formula.replace(") | (", ")\n        | (") }
 }
 
 /// A table as a function, which becomes gates.
@@ -67,8 +62,7 @@ fn lookup(circuit: &Circuit, wire: &Wire, table: &[u32], width: u32, index: Sign
 fn formula(circuit: &Circuit, expr: &Expr) -> String {
     let name = |signal: &Signal| &circuit.port(*signal).name;
     let list = |parts: &[Expr], operator: &str| {
-        let parts: Vec<String> = parts.iter().map(|part| formula(circuit, part)).collect();
-        if parts.len() == 1 { parts[0].clone() } else { format!("({})", parts.join(operator)) }
+        joined(&parts.iter().map(|part| formula(circuit, part)).collect::<Vec<_>>(), operator)
     };
     match expr {
         Expr::Signal(signal) => name(signal).clone(),

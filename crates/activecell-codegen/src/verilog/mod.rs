@@ -11,5 +11,4 @@ pub use fabric::{MAX_FABRIC_CELLS, fabric};
 pub(crate) use fabric::{checked, neighbour};
 pub(crate) use fabric_bench::bench as fabric_bench;
 pub use player::{control_unit, player};
-pub(crate) use windowed::bench as windowed_bench;
 pub use windowed::windowed;

@@ -48,7 +48,6 @@ pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
         ("TICKS_MAX", bench.ticks_max.to_string()),
         ("ABOUT_TICKS", bench.about),
     ];
-    let values = values.each_ref().map(|(name, value)| (*name, value.as_str()));
     let mut files = control_unit();
     files.extend([
         SourceFile::new("rtl/player_inputs.v", module(&circuits::player())),

@@ -2,7 +2,7 @@
 
 use crate::SourceFile;
 use crate::logic::{Circuit, Expr, Port, Signal, Wire};
-use crate::text::{Cases, whole};
+use crate::text::{Cases, joined, lines, whole};
 
 /// The package of operations that entities of circuits use.
 pub fn lanes() -> SourceFile {
@@ -96,7 +96,7 @@ fn statement(circuit: &Circuit, place: usize, wire: &Wire) -> String {
             let [condition, yes, no] = [condition, yes, no].map(|part| formula(circuit, part));
             format!("    {name} <= {} when {condition} = '1' else {};\n", whole(&yes), whole(&no))
         }
-        expr => format!("    {name} <= {};\n", lines(whole(&formula(circuit, expr)))),
+        expr => format!("    {name} <= {};\n", lines(whole(&formula(circuit, expr)), " or ")),
     };
     let output = if wire.is_output && is_inside {
         format!("    {} <= {name};\n", wire.port.name)
@@ -104,11 +104,6 @@ fn statement(circuit: &Circuit, place: usize, wire: &Wire) -> String {
         String::new()
     };
     assignment + &output
-}
-
-/// A long sum, each product in a line of its own.
-fn lines(formula: &str) -> String {
-    if formula.len() < 90 { formula.into() } else { formula.replace(") or (", ")\n        or (") }
 }
 
 /// A table as a conditional assignment, which becomes gates. Not a selected one: GHDL 2.0 loses the last choice of those
@@ -134,8 +129,7 @@ fn literal(value: u32, width: u32) -> String {
 fn formula(circuit: &Circuit, expr: &Expr) -> String {
     let name = |signal: &Signal| name(circuit, *signal);
     let list = |parts: &[Expr], operator: &str| {
-        let parts: Vec<String> = parts.iter().map(|part| formula(circuit, part)).collect();
-        if parts.len() == 1 { parts[0].clone() } else { format!("({})", parts.join(operator)) }
+        joined(&parts.iter().map(|part| formula(circuit, part)).collect::<Vec<_>>(), operator)
     };
     match expr {
         Expr::Signal(signal) => name(signal),

@@ -43,8 +43,7 @@ pub fn control_unit() -> Vec<SourceFile> {
 pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
     let image = ProgramImage::of(segments)?;
     let bench = PlayerBench::of(segments);
-    let ticks_max = bench.ticks_max.to_string();
-    let bench_values = [("TICKS_MAX", ticks_max.as_str()), ("ABOUT_TICKS", &bench.about)];
+    let bench_values = [("TICKS_MAX", bench.ticks_max.to_string()), ("ABOUT_TICKS", bench.about)];
     let mut files = control_unit();
     files.extend([
         SourceFile::new("rtl/player_inputs.vhd", entity(&circuits::player())),
@@ -72,8 +71,5 @@ fn program(image: &ProgramImage) -> String {
         ("WORDS", lines.collect()),
         ("END", format!("{end:0digits$b}")),
     ];
-    fill(
-        include_str!("templates/player_program.vhd"),
-        &values.each_ref().map(|(name, value)| (*name, value.as_str())),
-    )
+    fill(include_str!("templates/player_program.vhd"), &values)
 }

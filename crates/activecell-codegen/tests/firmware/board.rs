@@ -3,7 +3,7 @@
 use crate::{STRICT, common, real_map, sources, warehouse, written};
 use activecell::rule::{Decision, Sector, decide};
 use activecell::{BitPlane, Cell, Lattice, Map, Outcome, Robot, Rule};
-use activecell_codegen::{Language, Order, generate, long_way};
+use activecell_codegen::{Language, Order, circuits, generate, long_way};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -213,15 +213,12 @@ const ROUNDS: f64 = 200.0;
 
 /// What the core does with the numbers of `decisions` in `board.c`.
 fn decisions(lattice: Lattice) -> u32 {
-    let n = u32::from(lattice.degree());
     let sectors: Vec<Sector> = Sector::all(lattice).collect();
     let (mut state, mut sum) = (1u32, 2_166_136_261u32);
     for _ in 0..20_000 {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         let window = state >> 8;
-        let lane = |group: u32, i: u32| window >> (8 * group + i) & 1;
-        let bits: u32 =
-            (0..n).map(|i| lane(0, i) << i | lane(1, i) << (n + 2 * i) | lane(2, i) << (n + 2 * i + 1)).sum();
+        let bits = circuits::neighbourhood(lattice, [0, 8, 16].map(|at| window >> at));
         let sector = (state >> 4 & 15) as usize;
         let sector = sectors[if sector < sectors.len() { sector } else { sector - 8 }];
         let number = match decide(lattice, sector, state >> 3 & 1 == 1, bits) {

@@ -45,14 +45,15 @@ module windowed_@LATTICE@ #(
     // The neighbourhood, a lane a neighbour. Window cell (i, j) is bit 5*j + i; the robot is at (2, 2).
 @NEIGHBOURHOOD@
     // The decision.
-    wire @BEARING_NAMES@;
+    wire @COMPARISONS@, is_near;
     bearing_@LATTICE@ #(.X_BITS(X_BITS), .Y_BITS(Y_BITS)) bearing (
         .x(x), .y(y), .target_x(to_x), .target_y(to_y),
-        @BEARING_PORTS@
+        @COMPARISON_PORTS@,
+        .is_near(is_near)
     );
     wire [@SECTOR_TOP@:0] sector;
     sector_@LATTICE@ sector_of (
-        @SECTOR_PORTS@,
+        @COMPARISON_PORTS@,
         .sector(sector)
     );
     wire [@TOP@:0] decided;

@@ -56,7 +56,7 @@ architecture rtl of windowed_@LATTICE@ is
     signal between : std_logic_vector(@TOP@ downto 0); -- behind each and the next one
 
     -- The decision.
-    signal @BEARING_NAMES@ : std_logic;
+    signal @COMPARISONS@, is_near : std_logic;
     signal sector      : std_logic_vector(@SECTOR_TOP@ downto 0);
     signal decided     : std_logic_vector(@TOP@ downto 0);
     signal is_enclosed : std_logic;
@@ -88,12 +88,13 @@ begin
         generic map (X_BITS => X_BITS, Y_BITS => Y_BITS)
         port map (
             x => at_x, y => at_y, target_x => to_x, target_y => to_y,
-            @BEARING_PORTS@
+            @COMPARISON_PORTS@,
+            is_near => is_near
         );
 
     sector_of : entity work.sector_@LATTICE@
         port map (
-            @SECTOR_PORTS@,
+            @COMPARISON_PORTS@,
             sector => sector
         );
 
