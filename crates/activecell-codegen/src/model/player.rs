@@ -12,7 +12,7 @@
 //! - *After the last tick stop is asserted* until the player is reset: stopped, then calm. It never moves again.
 
 use activecell::control::{Control, Inputs, State};
-use activecell::{Drive, Error, Lattice, Program, Robot};
+use activecell::{Cell, Drive, Error, Lattice, Map, Program, Robot};
 
 /// What the robot does in a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -123,6 +123,46 @@ pub fn segments(program: &Program, robot: &Robot, lattice: Lattice) -> Result<Ve
         add(if waypoint.turn_deg < 0 { Motion::Left } else { Motion::Right }, turn.abs())?;
     }
     Ok(segments)
+}
+
+/// How far a robot rolls for the lattice's smallest motions, in the ticks of [`segments`] before they are rounded.
+///
+/// ```
+/// use activecell::{Lattice, Map, Robot};
+/// use activecell_codegen::model::player::Scale;
+/// let robot = Robot { wheel_perimeter_m: 0.5, ticks_per_rev: 100.0, ..Robot::default() };
+/// let scale = Scale::of(&robot, &Map::parse(Lattice::Square, "..")?);
+/// assert_eq!((scale.step_m, scale.step_ticks), (1.0, 200.0));
+/// # Ok::<(), activecell::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// From the centre of a cell to that of a neighbour, in metres.
+    pub step_m: f64,
+    /// The same in ticks.
+    pub step_ticks: f64,
+    /// From a direction of the lattice to the next one, in degrees.
+    pub turn_deg: u32,
+    /// The same in ticks: of the wheels for a differential drive, of the steering for a steered robot.
+    pub turn_ticks: f64,
+}
+
+impl Scale {
+    /// Of a robot on a map.
+    pub fn of(robot: &Robot, map: &Map) -> Self {
+        let turn_deg = 360 / u32::from(map.lattice().degree());
+        let [a, b] = [0, 1].map(|x| map.centre_m(Cell::new(x, 0)));
+        let step_m = (a[0] - b[0]).hypot(a[1] - b[1]);
+        Self {
+            step_m,
+            step_ticks: step_m / robot.wheel_perimeter_m * robot.ticks_per_rev,
+            turn_deg,
+            turn_ticks: match robot.drive {
+                Drive::Differential => robot.turn_revolutions(turn_deg as i32) * robot.ticks_per_rev,
+                Drive::Steered => 1.0,
+            },
+        }
+    }
 }
 
 /// A turn in steps of the lattice.
@@ -259,7 +299,7 @@ impl Player {
 mod tests {
     use super::*;
     use activecell::control::TABLE;
-    use activecell::{Cell, Map, Rng, Rule};
+    use activecell::{Rng, Rule};
 
     /// The control unit picks just the motion of the segment, or waits: from every state that is followed by a choice.
     #[test]
@@ -329,6 +369,18 @@ mod tests {
                 }
             };
             assert_eq!(sum(Motion::Right) - sum(Motion::Left), turns);
+            let scale = Scale::of(&robot, &map);
+            // Wheels of different size count differently; in each run half a tick is rounded away.
+            let rolled = route.steps() as f64 * scale.step_ticks;
+            let counted = (sum(Motion::Forward) + sum(Motion::Reverse)) as f64;
+            let slack = program.waypoints.len() as f64;
+            assert!((counted - rolled).abs() < slack + 0.003 * rolled, "{counted} {rolled}");
+            let turned_by = program.waypoints.iter().map(|w| w.turn_deg).sum::<i32>();
+            let turned_by = f64::from(turned_by) / f64::from(scale.turn_deg) * scale.turn_ticks;
+            assert!(
+                (turns as f64 - turned_by).abs() < slack + 0.003 * turned_by.abs(),
+                "{turns} {turned_by}"
+            );
             assert!(segments.iter().all(|segment| segment.ticks > 0));
             turned += usize::from(turns != 0);
         }
