@@ -25,5 +25,5 @@ pub mod verilog;
 pub mod vhdl;
 
 pub use banks::{Banks, MOST_STORED};
-pub use bundle::{Bundle, Language, Order, Size, generate, long_way};
+pub use bundle::{Bundle, GenerateError, Language, Order, Size, generate, long_way};
 pub use source::SourceFile;

@@ -1,9 +1,11 @@
 //! Everything for one robot on one map, in one language: sources, test benches, README, Makefile, and what it takes.
 
+mod check;
 mod makefile;
 mod readme;
 mod size;
 
+pub use check::GenerateError;
 pub use size::Size;
 
 use crate::logic::Circuit;
@@ -62,8 +64,9 @@ pub struct Bundle {
 /// Writes the navigator for a map, or, without one, the rule and the control unit alone, for both lattices.
 ///
 /// # Errors
-/// What the map, the task or the robot does not allow: [`Error::StartOccupied`] and the like for the ends of the program,
-/// [`Error::Unreachable`] if no way leads from one to the other, [`Error::MapTooLarge`] for what the language cannot hold.
+/// [`GenerateError::Order`] for what the map, the task or the robot does not allow: [`Error::StartOccupied`] and the like
+/// for the ends of the program, [`Error::Unreachable`] if no way leads from one to the other, [`Error::MapTooLarge`] for
+/// what the language cannot hold. [`GenerateError::Circuit`] before a circuit is printed that not every language takes.
 ///
 /// ```
 /// use activecell::{Lattice, Map, Robot};
@@ -73,9 +76,11 @@ pub struct Bundle {
 /// let order = Order { map: &map, from, to, robot: &Robot::default(), fixed_map: false };
 /// let bundle = generate(Language::C, Some(&order))?;
 /// assert!(bundle.files.iter().any(|file| file.path == "README.md"));
-/// # Ok::<(), activecell::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle, Error> {
+pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle, GenerateError> {
+    let lattices = order.map_or(Lattice::ALL.to_vec(), |order| vec![order.map.lattice()]);
+    check::check(&check::all_circuits(&lattices))?;
     let Some(order) = order else {
         return Ok(Parts { files: rules(language), ..Parts::default() }.bundled(language, None));
     };
