@@ -84,14 +84,14 @@ pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle,
     let Some(order) = order else {
         return Ok(Parts { files: rules(language), ..Parts::default() }.bundled(language, None));
     };
-    let (route, program) = program(order)?;
+    let mut notes = Vec::new();
+    let (route, program) = program(order, &mut notes)?;
     let facing = route.dirs().next().map(|dir| order.map.lattice().dir_name(dir));
     let parts = if language == Language::C {
         let program = c::Program { route: &route, segments: &program };
         let files = c::firmware(order.map, &program)?;
-        Parts { files, sizes: size::firmware(order.map, &program), facing, ..Parts::default() }
+        Parts { files, sizes: size::firmware(order.map, &program), notes, facing, ..Parts::default() }
     } else {
-        let mut notes = Vec::new();
         let designs = designs(language, order, &program, &mut notes)?;
         let mut files: Vec<SourceFile> =
             designs.iter().flat_map(|design| design.files.iter().cloned()).collect();
@@ -205,7 +205,7 @@ pub fn long_way(map: &Map) -> Result<(Cell, Cell), Error> {
 }
 
 /// The way of the order, which the robot begins facing along it, and the program M for it, in ticks.
-fn program(order: &Order<'_>) -> Result<(Route, Vec<Segment>), Error> {
+fn program(order: &Order<'_>, notes: &mut Vec<String>) -> Result<(Route, Vec<Segment>), Error> {
     let &Order { map, from, to, robot, .. } = order;
     map.check_task(from, to)?;
     let field = map.wave(to)?;
@@ -213,7 +213,18 @@ fn program(order: &Order<'_>) -> Result<(Route, Vec<Segment>), Error> {
         return Err(Error::Unreachable { from, to });
     }
     let route = field.route(from);
-    let segments = segments(&route.program(robot, map, None), robot, map.lattice())?;
+    let program = route.program(robot, map, None);
+    let segments = segments(&program, robot, map.lattice())?;
+    let waypoints = program.waypoints.iter();
+    let all: usize =
+        waypoints.map(|w| usize::from(w.revolutions != 0.0) + usize::from(w.turn_deg != 0)).sum();
+    if segments.len() < all {
+        notes.push(format!(
+            "left out of the program, because shorter than an encoder tick: {} of {all} runs and turns; the next ones make \
+             them good; more ticks a revolution (--robot) or larger cells (--cell) keep them",
+            all - segments.len()
+        ));
+    }
     Ok((route, segments))
 }
 
