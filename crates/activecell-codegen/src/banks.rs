@@ -41,13 +41,8 @@ impl Banks {
     /// # Errors
     /// [`Error::MapTooLarge`] if these are more than [`MOST_STORED`] cells.
     pub fn of(map: &Map) -> Result<Self, Error> {
-        let bits = |cells: u32| cells.next_power_of_two().trailing_zeros().max(4);
-        let (x_bits, y_bits) = (bits(map.width()), bits(map.height()));
-        if 1u64 << (x_bits + y_bits) > MOST_STORED {
-            let [width, height] = [map.width(), map.height()].map(u64::from);
-            return Err(Error::MapTooLarge { width, height, limit: MOST_STORED });
-        }
-        let mut images = vec![vec![15; 1 << (x_bits + y_bits - 6)]; 16];
+        let [x_bits, y_bits] = Self::bits(map)?;
+        let mut images = vec![vec![15; Self::tiles(map)?]; 16];
         for cell in map.free() {
             let wrapped = |at: i32, bits: u32| (at + BORDER) as usize & ((1 << bits) - 1);
             let (x, y) = (wrapped(cell.x, x_bits), wrapped(cell.y, y_bits));
@@ -55,5 +50,22 @@ impl Banks {
             images[bank][address] &= !(1 << (y % 2 * 2 + x % 2));
         }
         Ok(Self { x_bits, y_bits, images })
+    }
+
+    /// How many tiles each memory has, without dealing the map out.
+    pub(crate) fn tiles(map: &Map) -> Result<usize, Error> {
+        let [x_bits, y_bits] = Self::bits(map)?;
+        Ok(1 << (x_bits + y_bits - 6))
+    }
+
+    /// `x_bits` and `y_bits`.
+    fn bits(map: &Map) -> Result<[u32; 2], Error> {
+        let [x_bits, y_bits] =
+            [map.width(), map.height()].map(|cells| cells.next_power_of_two().trailing_zeros().max(4));
+        if 1u64 << (x_bits + y_bits) > MOST_STORED {
+            let [width, height] = [map.width(), map.height()].map(u64::from);
+            return Err(Error::MapTooLarge { width, height, limit: MOST_STORED });
+        }
+        Ok([x_bits, y_bits])
     }
 }

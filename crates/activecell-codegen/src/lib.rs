@@ -28,5 +28,5 @@ pub mod vhdl;
 mod window;
 
 pub use banks::{Banks, MOST_STORED};
-pub use bundle::{Bundle, Language, Order, Size, generate, long_way};
+pub use bundle::{Bundle, GenerateError, Language, Order, Size, generate, long_way};
 pub use source::SourceFile;

@@ -64,7 +64,7 @@ pub enum Error {
     Io {
         /// The file or folder.
         path: PathBuf,
-        /// What was tried: `read`, `write`.
+        /// What was tried: `read`, `write`, `make`.
         action: &'static str,
         /// What the system said.
         cause: std::io::Error,
@@ -191,6 +191,7 @@ fn io_message(path: &Path, action: &str, cause: &std::io::Error) -> String {
         Kind::NotFound if action == "read" => format!("{path}: there is no such file; check the path"),
         Kind::NotFound => format!("{path}: its folder does not exist; make the folder first"),
         Kind::IsADirectory => format!("{path}: this is a folder; name a file"),
+        Kind::AlreadyExists => format!("{path}: this is a file where a folder must be; move it away"),
         Kind::PermissionDenied => format!("{path}: no permission to {action} it; change its permissions"),
         Kind::StorageFull => format!("{path}: the disk is full; make room and try again"),
         _ => format!("{path}: cannot {action} it: {}", escaped(&cause.to_string())),

@@ -2,7 +2,9 @@
 #![allow(clippy::unwrap_used)] // A test may panic.
 
 use activecell::{Frame, Lattice, Map};
-use activecell_formats::files::{MapFormat, ReadOptions, read_bytes, read_map, write_atomically, write_map};
+use activecell_formats::files::{
+    MapFormat, ReadOptions, read_bytes, read_map, write_atomically, write_folder, write_map, write_together,
+};
 use activecell_formats::ros::{Reading, Rules};
 use std::fs;
 use std::path::Path;
@@ -224,6 +226,43 @@ fn writing_replaces_a_file_as_a_whole() {
     assert!(error.ends_with("no/a: its folder does not exist; make the folder first"), "{error}");
     let error = write_atomically(folder.path(), b"").unwrap_err().to_string();
     assert!(error.ends_with(": this is a folder; name a file"), "{error}");
+}
+
+#[test]
+fn files_that_belong_together_are_written_all_or_not_at_all() {
+    let folder = folder();
+    let [a, b] = ["a", "b"].map(|name| folder.path().join(name));
+    write_together(&[(&a, b"old a"), (&b, b"old b")]).unwrap();
+    let none = folder.path().join("none/c");
+    let error = write_together(&[(&a, b"new a"), (&b, b"new b"), (&none, b"")]).unwrap_err().to_string();
+    assert!(error.ends_with("none/c: its folder does not exist; make the folder first"), "{error}");
+    assert_eq!([&a, &b].map(|path| fs::read(path).unwrap()), [b"old a", b"old b"]);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "nothing else is left");
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_leaves_nothing() {
+    let folder = folder();
+    let new = folder.path().join("new/one");
+    let files: [(&str, &[u8]); 3] = [("deep/er/a", b"a"), ("deep/b", b"b"), ("deep/er", b"a folder by now")];
+    let error = write_folder(&new, &files).unwrap_err().to_string();
+    assert!(error.ends_with("er: this is a folder; name a file"), "{error}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "no folder is left");
+    write_folder(&new, &files[..2]).unwrap();
+    assert_eq!(fs::read(new.join("deep/er/a")).unwrap(), b"a");
+    let error = write_folder(&new, &[("deep/b/c", b"c")]).unwrap_err().to_string();
+    assert!(error.ends_with("b: this is a file where a folder must be; move it away"), "{error}");
+}
+
+/// The YAML is refused, so the image is not written either.
+#[test]
+fn a_map_of_two_files_is_written_as_a_whole() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("a.yaml")).unwrap();
+    fs::write(folder.path().join("a.pgm"), "another image").unwrap();
+    let map = Map::parse(Lattice::Square, "..#\n#..").unwrap();
+    write_map(&folder.path().join("a.yaml"), &map).unwrap_err();
+    assert_eq!(fs::read(folder.path().join("a.pgm")).unwrap(), b"another image");
 }
 
 #[cfg(unix)]

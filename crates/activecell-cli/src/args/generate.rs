@@ -21,7 +21,7 @@ pub(crate) struct GenerateArgs {
     pub(crate) language: LanguageArg,
     #[command(flatten)]
     pub(crate) map: Option<MapArgs>,
-    /// The folder to write, made if it is not there; other files in it are left alone
+    /// The folder to write, made if it is not there; of other files in it only those of an earlier generation are removed
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: PathBuf,
     /// Where the program begins [default: one end of a long way over the map]

@@ -1,13 +1,12 @@
 //! `activecell generate`: the navigator as firmware or hardware.
 
+use super::earlier::{self, Earlier};
 use super::{counted, load};
 use crate::args::{GenerateArgs, WrongArgument};
 use crate::terminal::Terminal;
 use activecell_codegen::{Bundle, Language, Order, Size, generate, long_way};
 use activecell_formats::files;
-use anyhow::Context;
 use serde::Serialize;
-use std::fs;
 
 #[derive(Serialize)]
 struct Report<'a> {
@@ -29,14 +28,13 @@ struct SizeReport {
 pub(crate) fn run(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<()> {
     let output = &args.output;
     anyhow::ensure!(!output.exists() || output.is_dir(), "{}: is a file; name a folder", output.display());
-    let bundle = made(args, terminal)?;
-    // All is there before the first byte is written.
-    for file in &bundle.files {
-        let path = args.output.join(&file.path);
-        let folder = path.parent().unwrap_or(&args.output);
-        fs::create_dir_all(folder).with_context(|| format!("{}: cannot be made", folder.display()))?;
-        files::write_atomically(&path, file.text.as_bytes())?;
-    }
+    let mut bundle = made(args, terminal)?;
+    let earlier = Earlier::read(output);
+    let list = earlier::list(&bundle.files);
+    let texts = bundle.files.iter().map(|file| (file.path.as_str(), file.text.as_bytes()));
+    files::write_folder(output, &texts.chain([(earlier::LIST, list.as_bytes())]).collect::<Vec<_>>())?;
+    let notes = earlier.remove_all_but(&bundle.files);
+    bundle.notes.extend(notes);
     for note in &bundle.notes {
         terminal.note(&format!("note: {note}"));
     }

@@ -5,6 +5,7 @@ mod certificate;
 mod check;
 mod control;
 mod convert;
+mod earlier;
 mod embed;
 mod fleet;
 mod generate;

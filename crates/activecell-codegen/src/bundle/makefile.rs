@@ -11,7 +11,11 @@ pub(super) fn makefile(language: Language, designs: &[Design]) -> SourceFile {
         Language::Verilog => include_str!("templates/verilog.mk"),
         Language::Vhdl => include_str!("templates/vhdl.mk"),
     };
-    let values = [("DESIGNS", &*lists(designs)), ("PLACE", include_str!("templates/place.mk"))];
+    let values = [
+        ("DESIGNS", &*lists(designs)),
+        ("TARGETS", include_str!("templates/targets.mk")),
+        ("PLACE", include_str!("templates/place.mk")),
+    ];
     SourceFile::new("Makefile", fill(template, &values))
 }
 

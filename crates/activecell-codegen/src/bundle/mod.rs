@@ -1,9 +1,11 @@
 //! Everything for one robot on one map, in one language: sources, test benches, README, Makefile, and what it takes.
 
+mod check;
 mod makefile;
 mod readme;
 mod size;
 
+pub use check::GenerateError;
 pub use size::Size;
 
 use crate::logic::Circuit;
@@ -62,8 +64,9 @@ pub struct Bundle {
 /// Writes the navigator for a map, or, without one, the rule and the control unit alone, for both lattices.
 ///
 /// # Errors
-/// What the map, the task or the robot does not allow: [`Error::StartOccupied`] and the like for the ends of the program,
-/// [`Error::Unreachable`] if no way leads from one to the other, [`Error::MapTooLarge`] for what the language cannot hold.
+/// [`GenerateError::Order`] for what the map, the task or the robot does not allow: [`Error::StartOccupied`] and the like
+/// for the ends of the program, [`Error::Unreachable`] if no way leads from one to the other, [`Error::MapTooLarge`] for
+/// what the language cannot hold. [`GenerateError::Circuit`] before a circuit is printed that not every language takes.
 ///
 /// ```
 /// use activecell::{Lattice, Map, Robot};
@@ -73,20 +76,22 @@ pub struct Bundle {
 /// let order = Order { map: &map, from, to, robot: &Robot::default(), fixed_map: false };
 /// let bundle = generate(Language::C, Some(&order))?;
 /// assert!(bundle.files.iter().any(|file| file.path == "README.md"));
-/// # Ok::<(), activecell::Error>(())
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle, Error> {
+pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle, GenerateError> {
+    let lattices = order.map_or(Lattice::ALL.to_vec(), |order| vec![order.map.lattice()]);
+    check::check(&check::all_circuits(&lattices))?;
     let Some(order) = order else {
         return Ok(Parts { files: rules(language), ..Parts::default() }.bundled(language, None));
     };
-    let (route, program) = program(order)?;
+    let mut notes = Vec::new();
+    let (route, program) = program(order, &mut notes)?;
     let facing = route.dirs().next().map(|dir| order.map.lattice().dir_name(dir));
     let parts = if language == Language::C {
         let program = c::Program { route: &route, segments: &program };
         let files = c::firmware(order.map, &program)?;
-        Parts { files, sizes: size::firmware(order.map, &program), facing, ..Parts::default() }
+        Parts { files, sizes: size::firmware(order.map, &program), notes, facing, ..Parts::default() }
     } else {
-        let mut notes = Vec::new();
         let designs = designs(language, order, &program, &mut notes)?;
         let mut files: Vec<SourceFile> =
             designs.iter().flat_map(|design| design.files.iter().cloned()).collect();
@@ -200,7 +205,7 @@ pub fn long_way(map: &Map) -> Result<(Cell, Cell), Error> {
 }
 
 /// The way of the order, which the robot begins facing along it, and the program M for it, in ticks.
-fn program(order: &Order<'_>) -> Result<(Route, Vec<Segment>), Error> {
+fn program(order: &Order<'_>, notes: &mut Vec<String>) -> Result<(Route, Vec<Segment>), Error> {
     let &Order { map, from, to, robot, .. } = order;
     map.check_task(from, to)?;
     let field = map.wave(to)?;
@@ -208,7 +213,18 @@ fn program(order: &Order<'_>) -> Result<(Route, Vec<Segment>), Error> {
         return Err(Error::Unreachable { from, to });
     }
     let route = field.route(from);
-    let segments = segments(&route.program(robot, map, None), robot, map.lattice())?;
+    let program = route.program(robot, map, None);
+    let segments = segments(&program, robot, map.lattice())?;
+    let waypoints = program.waypoints.iter();
+    let all: usize =
+        waypoints.map(|w| usize::from(w.revolutions != 0.0) + usize::from(w.turn_deg != 0)).sum();
+    if segments.len() < all {
+        notes.push(format!(
+            "left out of the program, because shorter than an encoder tick: {} of {all} runs and turns; the next ones make \
+             them good; more ticks a revolution (--robot) or larger cells (--cell) keep them",
+            all - segments.len()
+        ));
+    }
     Ok((route, segments))
 }
 

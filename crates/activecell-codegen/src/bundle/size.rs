@@ -60,8 +60,7 @@ pub(super) fn firmware(map: &Map, program: &c::Program<'_>) -> Vec<Size> {
 }
 
 pub(super) fn windowed(map: &Map) -> Result<Vec<Size>, Error> {
-    let banks = Banks::of(map)?;
-    let tiles = banks.images.first().map_or(0, Vec::len) as u64;
+    let tiles = Banks::tiles(map)? as u64;
     let rams = tiles.div_ceil(RAM_TILES);
     let luts = if map.lattice() == Lattice::Square { 500 } else { 610 };
     Ok(vec![

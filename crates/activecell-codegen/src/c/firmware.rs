@@ -193,7 +193,7 @@ fn rule(lattice: Lattice) -> String {
         include_str!("templates/ac_rule.c"),
         &[
             ("DECIDE_FUNCTION", &function(&circuits::decision(lattice))),
-            ("LANE_FUNCTION", &lattice::lane_number(lattice)),
+            ("LANE_FUNCTION", &function(&lattice::lane_number(lattice))),
             ("GEOMETRY", &lattice::geometry(lattice)),
             ("PARITIES", parities),
             ("PARITY", parity),

@@ -1,6 +1,5 @@
 //! What the lattice decides in the C text: offsets, sectors, orders, all read from the core.
 
-use super::circuit::function;
 use crate::circuits;
 use crate::logic::{Circuit, Expr};
 use crate::window::{Offset, lanes};
@@ -122,7 +121,7 @@ fn gathered(lattice: Lattice, name: &str, offsets: &[Offset]) -> String {
 }
 
 /// From a signal with one lane set to the number of the lane.
-pub(super) fn lane_number(lattice: Lattice) -> String {
+pub(crate) fn lane_number(lattice: Lattice) -> Circuit {
     let lanes = u32::from(lattice.degree());
     let mut circuit = Circuit::new("lane_number", "The number of the one lane that is 1.");
     let signal = circuit.input("lanes", lanes, "one of them is 1");
@@ -134,7 +133,7 @@ pub(super) fn lane_number(lattice: Lattice) -> String {
     let bits: Vec<(String, Expr)> = bits.collect();
     let bits = bits.into_iter().map(|(name, expr)| circuit.wire(&name, expr, "of the number")).collect();
     circuit.output("number", Expr::Join(bits), "from 0");
-    function(&circuit)
+    circuit
 }
 
 /// The order in which each sector asks the neighbours.

@@ -8,4 +8,5 @@ mod program;
 
 pub use circuit::{function, header, headers};
 pub use firmware::{Footprint, firmware, footprint, rows};
+pub(crate) use lattice::lane_number;
 pub use program::Program;

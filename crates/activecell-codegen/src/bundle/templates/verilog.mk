@@ -11,13 +11,7 @@ YOSYS    ?= yosys
 NEXTPNR  ?= nextpnr-ice40
 
 @DESIGNS@
-.PHONY: sim synth clean $(DESIGNS:%=sim-%) $(DESIGNS:%=synth-%)
-
-sim: $(DESIGNS:%=sim-%)
-synth: $(FITTING:%=synth-%)
-	@for design in $(filter-out $(FITTING),$(DESIGNS)); do \
-	    echo "$$design: left out, an HX8K is too small for it; make synth-$$design tries"; done
-
+@TARGETS@
 $(DESIGNS:%=sim-%): sim-%:
 	@mkdir -p build
 	@echo "$*: simulating …"

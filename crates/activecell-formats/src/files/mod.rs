@@ -1,5 +1,9 @@
 //! The disk: the only module that touches it.
 
+mod write;
+
+pub use write::{abandon_writes, write_atomically, write_folder, write_together};
+
 use crate::drive_log;
 use crate::elevation::{self, Georeference, HeightFormat, HeightOptions, Relief};
 use crate::error::{Error, line_and_column, shown};
@@ -8,9 +12,8 @@ use crate::raster;
 use crate::ros::{self, MapYaml};
 use activecell::{DriveLog, Frame, Ground, Lattice, Map, Robot};
 use std::fs;
-use std::io::{self, Read as _, Write as _};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The longest map or image that is read, in bytes: 1 GiB, a plain PGM of [`activecell::MAX_CELLS`] pixels.
 pub const MAX_MAP_BYTES: u64 = 1 << 30;
@@ -61,109 +64,6 @@ pub fn outputs(path: &Path) -> Vec<PathBuf> {
         outputs.push(path.with_extension("pgm"));
     }
     outputs
-}
-
-/// Writes a file so that it is there as a whole or, after an error, as it was before.
-///
-/// The bytes go to a new file in the same folder, which then takes the place of the old one. Devices and pipes
-/// (`/dev/stdout`) are written to directly.
-///
-/// # Errors
-/// [`Error::Io`].
-///
-/// ```
-/// # let folder = tempfile::tempdir()?;
-/// let path = folder.path().join("plan.txt");
-/// activecell_formats::files::write_atomically(&path, b"done\n")?;
-/// assert_eq!(std::fs::read(&path)?, b"done\n");
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    write_whole(path, bytes).map_err(|cause| Error::Io { path: path.to_owned(), action: "write", cause })
-}
-
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    if path == Path::new("/dev/stdout") {
-        // Opening it anew would begin at the start of a file to which standard output was redirected.
-        let mut out = io::stdout().lock();
-        out.write_all(bytes)?;
-        return out.flush();
-    }
-    let old = fs::metadata(path).ok();
-    let old_is_file = old.as_ref().is_some_and(fs::Metadata::is_file);
-    if old.as_ref().is_some_and(fs::Metadata::is_dir) {
-        return Err(io::ErrorKind::IsADirectory.into());
-    }
-    if old.is_some() && (!old_is_file || path.starts_with("/dev")) {
-        return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes);
-    }
-    // A link stays a link: the file that it names is replaced, or made.
-    let target = match fs::read_link(path) {
-        _ if old_is_file => fs::canonicalize(path)?,
-        Ok(named) => path.parent().unwrap_or(Path::new("")).join(named),
-        Err(_) => path.to_owned(),
-    };
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(io::ErrorKind::NotFound.into());
-    }
-    let permissions = old.map(|old| old.permissions());
-    if permissions.as_ref().is_some_and(fs::Permissions::readonly) {
-        return Err(io::ErrorKind::PermissionDenied.into());
-    }
-    let mut file = new_file_in(folder)?;
-    let _unfinished = Unfinished::begin(file.path());
-    file.write_all(bytes)?;
-    if let Some(permissions) = permissions {
-        file.as_file().set_permissions(permissions)?;
-    }
-    // A full disk may show only now.
-    file.as_file().sync_all()?;
-    file.persist(&target).map(drop).map_err(|error| error.error)
-}
-
-/// The temporary files that are being written.
-static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
-
-/// A temporary file on the list while it lives.
-struct Unfinished(PathBuf);
-
-impl Unfinished {
-    fn begin(path: &Path) -> Self {
-        unfinished().push(path.to_owned());
-        Self(path.to_owned())
-    }
-}
-
-impl Drop for Unfinished {
-    fn drop(&mut self) {
-        unfinished().retain(|path| *path != self.0);
-    }
-}
-
-fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
-    // A list of paths is whole even if somebody panicked over it.
-    UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-/// Removes the temporary files of writes that are under way: for a program that is about to be ended.
-pub fn abandon_writes() {
-    for path in unfinished().drain(..) {
-        // It may have become the file itself by now.
-        let _ = fs::remove_file(path);
-    }
-}
-
-fn new_file_in(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".activecell-");
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // As any new file; the process's mask takes its share.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder)
 }
 
 /// The formats of map files.
@@ -361,7 +261,7 @@ fn text(bytes: &[u8]) -> Result<&str, Error> {
 
 /// Writes a map in the format that the ending names.
 ///
-/// A `.yaml` gets its image beside it, with the same name and the ending `.pgm`, written first. The other formats
+/// A `.yaml` gets its image beside it, with the same name and the ending `.pgm`. The other formats
 /// do not keep the frame, and only `.txt` keeps the names of cells; no format keeps the lattice.
 ///
 /// # Errors
@@ -392,6 +292,5 @@ fn write_ros(path: &Path, map: &Map) -> Result<(), Error> {
         ));
     };
     let yaml = MapYaml { image: name.to_owned(), ..yaml };
-    write_atomically(&image_path, &raster::write_pgm(&image))?;
-    write_atomically(path, yaml.write().as_bytes())
+    write_together(&[(&image_path, &raster::write_pgm(&image)), (path, yaml.write().as_bytes())])
 }
