@@ -11,10 +11,10 @@ module control_unit (
     input  wire       clk,   // all happens at its rising edge
     input  wire       reset, // synchronous, active high: to calm
     input  wire [7:0] g,     // what is asked and sensed, synchronous to clk; see control_next
-    output wire       q0,    // no motion, at rest
-    output wire       q1,    // rolls forwards or turns
-    output wire       q2,    // to the left; with q3: back
-    output wire       q3     // to the right; with q2: back
+    output wire       q0,    // at rest
+    output wire       q1,    // forwards, each wheel that does not roll back
+    output wire       q2,    // the left wheel back, or steering to the left
+    output wire       q3     // the right wheel back, or steering to the right
 );
     reg  [2:0] state = 3'd@CALM@; // calm
     wire [2:0] next_state;

@@ -34,9 +34,9 @@ module player #(
     input  wire                    tick,      // 1 for a clock: a tick
     input  wire [3:0]              obstacles, // levels: on the right, on the left, in front, behind (bit 0 first)
     output wire                    q0,        // to the motors, as the table in control_unit tells: at rest
-    output wire                    q1,        // rolls forwards or turns
-    output wire                    q2,        // to the left; with q3: back
-    output wire                    q3,        // to the right; with q2: back
+    output wire                    q1,        // forwards, each wheel that does not roll back
+    output wire                    q2,        // the left wheel back, or steering to the left
+    output wire                    q3,        // the right wheel back, or steering to the right
     output wire [SEGMENT_BITS-1:0] segment,   // the number of the segment that the robot is in, from 0
     output wire                    turning,   // that segment is a turn
     output wire                    done       // the program has ended

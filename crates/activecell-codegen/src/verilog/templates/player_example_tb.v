@@ -50,7 +50,7 @@ module player_example_tb;
 @CASES@
             default: motion = "unknown";
         endcase
-        $display("%0t ns: %0s", $time / 1000, motion);
+        $display("%0d ns: %0s", $time, motion);
     end
 
     initial begin

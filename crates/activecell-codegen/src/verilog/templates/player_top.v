@@ -3,9 +3,10 @@
 //
 @STATES@
 //
-// All pins are active high. Neither calm nor stopped powers a motor, so a motor driver needs q1 to q3 only;
-// whether it brakes or coasts at rest is its own affair. A reverse may follow a forward at the next clock:
-// the driver must make the dead time. Pins float while the chip is configured: pull q1, q2 and q3 down.
+// All pins are active high. Of two driven wheels, q2 rolls the left one back, q3 the right one, and q1
+// forwards each that does not roll back; calm and stopped power none, so that q0 is for a lamp. Whether the
+// motor driver brakes or coasts at rest is its own affair, and the dead time too: a reverse may follow a
+// forward at the next clock. Pins float while the chip is configured: pull q1, q2 and q3 down.
 //
 // Inputs may change at any time: here each passes two flip-flops. The outputs come from flip-flops and do
 // not glitch; they answer go and obstacles at the fourth rising edge of clk. Reset is needed after
@@ -28,9 +29,9 @@ module player_top #(
     input  wire       steering,    // a steered robot's: a pulse a step of the lattice turned; else give 0
     input  wire [3:0] obstacles,   // levels: on the right, on the left, in front, behind (bit 0 first)
     output wire       q0,          // to the motors, as the table above tells: at rest
-    output wire       q1,          // rolls forwards or turns
-    output wire       q2,          // to the left; with q3: back
-    output wire       q3,          // to the right; with q2: back
+    output wire       q1,          // forwards, each wheel that does not roll back
+    output wire       q2,          // the left wheel back, or steering to the left
+    output wire       q3,          // the right wheel back, or steering to the right
     output wire       done         // the program has ended
 );
     // Two flip-flops for each level: the first one may not be settled. The obstacles are a flag each, so

@@ -13,10 +13,10 @@ entity control_unit is
         clk   : in  std_logic;                    -- all happens at its rising edge
         reset : in  std_logic;                    -- synchronous, active high: to calm
         g     : in  std_logic_vector(7 downto 0); -- what is asked and sensed, synchronous; see control_next
-        q0    : out std_logic;                    -- no motion, at rest
-        q1    : out std_logic;                    -- rolls forwards or turns
-        q2    : out std_logic;                    -- to the left; with q3: back
-        q3    : out std_logic                     -- to the right; with q2: back
+        q0    : out std_logic;                    -- at rest
+        q1    : out std_logic;                    -- forwards, each wheel that does not roll back
+        q2    : out std_logic;                    -- the left wheel back, or steering to the left
+        q3    : out std_logic                     -- the right wheel back, or steering to the right
     );
 end entity control_unit;
 

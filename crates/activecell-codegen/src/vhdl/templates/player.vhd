@@ -34,9 +34,9 @@ entity player is
         tick      : in  std_logic;                    -- 1 for a clock: a tick
         obstacles : in  std_logic_vector(3 downto 0); -- levels: right, left, front, behind (bit 0 first)
         q0        : out std_logic;                    -- to the motors, see control_unit: at rest
-        q1        : out std_logic;                    -- rolls forwards or turns
-        q2        : out std_logic;                    -- to the left; with q3: back
-        q3        : out std_logic;                    -- to the right; with q2: back
+        q1        : out std_logic;                    -- forwards, each wheel that does not roll back
+        q2        : out std_logic;                    -- the left wheel back, or steering to the left
+        q3        : out std_logic;                    -- the right wheel back, or steering to the right
         segment   : out std_logic_vector(SEGMENT_BITS - 1 downto 0); -- that the robot is in, from 0
         turning   : out std_logic;                    -- that segment is a turn
         done      : out std_logic                     -- the program has ended

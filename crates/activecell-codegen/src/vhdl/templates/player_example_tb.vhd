@@ -61,9 +61,10 @@ begin
     end process motors;
 
     -- What the robot does, and how long.
-    show : process (q)
+    show : process
         variable before : natural := 0; -- ticks before this motion
     begin
+        wait on q;
         if ticks /= before then
             report integer'image(ticks - before) & " ticks";
         end if;

@@ -3,9 +3,10 @@
 --
 @STATES@
 --
--- All pins are active high. Neither calm nor stopped powers a motor, so a motor driver needs q1 to q3 only;
--- whether it brakes or coasts at rest is its own affair. A reverse may follow a forward at the next clock:
--- the driver must make the dead time. Pins float while the chip is configured: pull q1, q2 and q3 down.
+-- All pins are active high. Of two driven wheels, q2 rolls the left one back, q3 the right one, and q1
+-- forwards each that does not roll back; calm and stopped power none, so that q0 is for a lamp. Whether the
+-- motor driver brakes or coasts at rest is its own affair, and the dead time too: a reverse may follow a
+-- forward at the next clock. Pins float while the chip is configured: pull q1, q2 and q3 down.
 --
 -- Inputs may change at any time: here each passes two flip-flops. The outputs come from flip-flops and do
 -- not glitch; they answer go and obstacles at the fourth rising edge of clk. Reset is needed after
@@ -30,9 +31,9 @@ entity player_top is
         steering    : in  std_logic; -- a steered robot's: a pulse a step of the lattice turned; else give 0
         obstacles   : in  std_logic_vector(3 downto 0); -- levels: right, left, front, behind (bit 0 first)
         q0          : out std_logic; -- to the motors, as the table above tells: at rest
-        q1          : out std_logic; -- rolls forwards or turns
-        q2          : out std_logic; -- to the left; with q3: back
-        q3          : out std_logic; -- to the right; with q2: back
+        q1          : out std_logic; -- forwards, each wheel that does not roll back
+        q2          : out std_logic; -- the left wheel back, or steering to the left
+        q3          : out std_logic; -- the right wheel back, or steering to the right
         done        : out std_logic  -- the program has ended
     );
 end entity player_top;
