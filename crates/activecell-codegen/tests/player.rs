@@ -9,6 +9,7 @@ use activecell_codegen::model::player_top::{Pins, PlayerTop};
 use activecell_codegen::{SourceFile, verilog};
 use common::cxxrtl::Simulation;
 use common::formal;
+use std::path::{Path, PathBuf};
 
 /// A program of a random route over a random map of either lattice, for a random robot.
 fn program(rng: &mut Rng) -> Vec<Segment> {
@@ -279,12 +280,42 @@ fn must_end(files: &mut [SourceFile]) {
     );
 }
 
+/// What a test bench of the files in the folder prints.
+fn simulated([iverilog, vvp]: &[PathBuf; 2], folder: &Path, bench: &str) -> String {
+    let mut compile = common::command(iverilog, folder);
+    compile.args(["-g2005", "-Wall", "-Wno-timescale", "-o", "bench", "-s", bench]);
+    compile.args([&format!("tb/{bench}.v"), "rtl/player_top.v"]).args(SOURCES.split(' '));
+    let warnings = compile.output().expect("a program that was found can be run");
+    assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
+    common::run(common::command(vvp, folder).args(["-n", "bench"]))
+}
+
+/// The example drives every segment for all its ticks; without its program it moves not at all.
+#[test]
+fn the_example_drives_its_program() {
+    let Some(tools) = common::programs("the_example_drives_its_program", ["iverilog", "vvp"]) else { return };
+    let mut rng = Rng::new(4);
+    let folder = common::folder("player_example");
+    for drive in [Drive::Differential, Drive::Steered] {
+        for case in 0..4 {
+            let segments = if case == 0 { Vec::new() } else { program(&mut rng) };
+            common::write(&folder, &verilog::player(&segments, drive).unwrap());
+            let said = simulated(&tools, &folder, "player_example_tb");
+            let ticks: u32 = segments.iter().map(|segment| segment.ticks).sum();
+            let end = format!("PASS example: the program has ended after {ticks} ticks");
+            assert!(said.contains(&end), "{segments:?} {said}");
+            std::fs::remove_file(folder.join("rtl/player.hex")).unwrap();
+            let said = simulated(&tools, &folder, "player_example_tb");
+            assert!(said.contains("FAIL example: the outputs are unknown"), "{said}");
+        }
+    }
+    println!("8 programs: the example ends after all their ticks, and tells of a program that is not there");
+}
+
 /// The test bench as it is shipped passes, and fails if what it expects is wrong.
 #[test]
 fn the_test_bench_passes_and_finds_faults() {
-    let Some([iverilog, vvp]) =
-        common::programs("the_test_bench_passes_and_finds_faults", ["iverilog", "vvp"])
-    else {
+    let Some(tools) = common::programs("the_test_bench_passes_and_finds_faults", ["iverilog", "vvp"]) else {
         return;
     };
     let mut rng = Rng::new(2);
@@ -309,21 +340,7 @@ fn the_test_bench_passes_and_finds_faults() {
             trace.text.replace_range(place..=place, "2");
         }
         common::write(&folder, &files);
-        let mut compile = common::command(&iverilog, &folder);
-        compile.args([
-            "-g2005",
-            "-Wall",
-            "-Wno-timescale",
-            "-o",
-            "bench",
-            "-s",
-            "player_tb",
-            "tb/player_tb.v",
-            "rtl/player_top.v",
-        ]);
-        let warnings = compile.args(SOURCES.split(' ')).output().unwrap();
-        assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
-        let said = common::run(common::command(&vvp, &folder).arg("bench"));
+        let said = simulated(&tools, &folder, "player_tb");
         assert_eq!(said.contains("FAIL player"), is_wrong, "{said}");
         assert_eq!(said.contains("ended after 12 segments"), case == 3, "{said}");
         assert_eq!(said.contains("PASS player"), !is_wrong, "{said}");

@@ -48,7 +48,10 @@ module player_example_tb;
         before = ticks;
         case (q)
 @CASES@
-            default: motion = "unknown";
+            default: begin
+                $display("FAIL example: the outputs are unknown; is rtl/player.hex there?");
+                $finish;
+            end
         endcase
         $display("%0d ns: %0s", $time, motion);
     end
