@@ -2,6 +2,7 @@
 
 pub mod fabric;
 pub mod player;
+pub mod player_top;
 pub mod player_trace;
 mod windowed;
 
