@@ -5,4 +5,4 @@ pub mod player;
 pub mod player_trace;
 mod windowed;
 
-pub use windowed::{Shown, Status, Windowed};
+pub use windowed::{Shown, Status, Windowed, WindowedInputs};
