@@ -154,6 +154,9 @@ fn the_windowed_navigators_test_bench_passes_and_finds_faults() {
             let map = Map::random(lattice, width, height, 0.15, seed).unwrap();
             let mut files = vhdl::windowed(&map).unwrap();
             assert!(passes(&ghdl, &folder, &files, "windowed_tb"), "{lattice} {width} x {height}");
+            let mut example = common::command(&ghdl, &folder);
+            example.args(["--elab-run", "--std=93", "windowed_example_tb", "--ieee-asserts=disable-at-0"]);
+            common::check_example(&map, &common::run(&mut example));
             let trace = files.last_mut().unwrap();
             let place = trace.text.len() - 4; // the step of the last line, which is none
             trace.text.replace_range(place..=place, "1");
@@ -210,7 +213,7 @@ fn maps_of_every_size_become_block_ram() {
         synth.args(["--synth", "--std=93", "--out=verilog"]).args(sources).args(["-e", "map_window"]);
         std::fs::write(folder.join("netlist.v"), common::run(&mut synth)).expect("the folder can be written");
         let script = format!(
-            "read_verilog netlist.v; {told}; proc; opt_clean; memory -nomap; \
+            "read_verilog netlist.v; {told}; proc; opt; memory -nomap; \
              memory_libmap -lib +/ice40/brams.txt; select -assert-count 16 t:$__ICE40_RAM4K_"
         );
         common::yosys(&yosys, &folder, &script);

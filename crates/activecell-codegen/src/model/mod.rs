@@ -6,4 +6,4 @@ pub mod player_top;
 pub mod player_trace;
 mod windowed;
 
-pub use windowed::{Shown, Status, Windowed};
+pub use windowed::{Shown, Status, Windowed, WindowedInputs};
