@@ -6,8 +6,8 @@ module fabric #(
     parameter ROW_BITS = @ROW_BITS@        // enough for HEIGHT - 1
 ) (
     input  wire                   clk,
-    input  wire                   reset,       // active high; ends any task, begins none; needed once, at first
-@MAP_PORTS@    input  wire                   begin_task,  // for one clock: a task begins, instead of one that is being done
+    input  wire                   reset,       // active high; ends any task, begins none; needed at first
+@MAP_PORTS@    input  wire                   begin_task,  // for one clock: a task begins, in place of any other
     input  wire [COLUMN_BITS-1:0] start_x,     // column and row where the robot is, taken with begin_task
     input  wire [ROW_BITS-1:0]    start_y,
     input  wire [COLUMN_BITS-1:0] target_x,    // where it is to go; an obstacle, or outside: unreachable
