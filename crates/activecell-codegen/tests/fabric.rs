@@ -6,7 +6,7 @@ mod common;
 
 use activecell::{BitPlane, Cell, Lattice, Map, Rng};
 use activecell_codegen::model::fabric::{Fabric, Inputs, Outputs};
-use activecell_codegen::verilog;
+use activecell_codegen::{long_way, verilog};
 use common::aig::{Aig, aig};
 use std::path::PathBuf;
 
@@ -28,18 +28,23 @@ impl Pair {
     fn new(test: &str, map: &Map, loadable: bool) -> Option<Self> {
         let files = verilog::fabric(map, loadable).unwrap();
         // The wires of every cell, by patterns of their names: `row[2].column[1].reached`, or the like.
-        let wires = [r"row*\].reached", r"row*\].active", r"row*\].inside.pointer"];
+        let wires = [r"reached\[*", r"active\[*", r"row*\].on_map.pointer"];
         let gates = aig(test, &files, "fabric", &wires)?;
         let inputs = INPUTS.map(|name| gates.port(name)).to_vec();
         let mut outputs: Vec<usize> = OUTPUTS.iter().flat_map(|name| gates.port(name)).collect();
-        for wire in ["reached", "active", "inside.pointer"] {
-            // From 1: row 0 and column 0 are of the frame around the map.
-            for (x, y) in (1..=map.height()).flat_map(|y| (1..=map.width()).map(move |x| (x, y))) {
-                outputs.extend(gates.port(&format!("row[{y}].column[{x}].{wire}")));
-            }
+        // From 1: row 0 and column 0 are of the frame around the map. Of an array yosys counts the words.
+        let cells: Vec<(u32, u32)> =
+            (1..=map.height()).flat_map(|y| (1..=map.width()).map(move |x| (x, y))).collect();
+        for array in ["reached", "active"] {
+            let word = |&(x, y): &(u32, u32)| gates.port(&format!("{array}[{}]", y * (map.width() + 2) + x));
+            outputs.extend(cells.iter().flat_map(word));
+        }
+        for (x, y) in cells {
+            outputs.extend(gates.port(&format!("row[{y}].column[{x}].on_map.pointer")));
         }
         let lanes = map.lattice().degree();
-        let mut pair = Self { fabric: Fabric::new(map), gates, inputs, outputs, lanes, clocks: 0 };
+        let fabric = if loadable { Fabric::unloaded(map) } else { Fabric::new(map) };
+        let mut pair = Self { fabric, gates, inputs, outputs, lanes, clocks: 0 };
         // Pointers need no reset: they hold anything before the second clock.
         for _ in 0..2 {
             pair.clock_unseen(Inputs { reset: true, ..Inputs::default() });
@@ -96,6 +101,11 @@ impl Pair {
 fn compare(test: &str, maps: &[Map], loadable: bool, tasks: usize) {
     let first = &maps[0];
     let Some(mut pair) = Pair::new(test, first, loadable) else { return };
+    if loadable {
+        // Nothing is loaded yet: no way leads anywhere.
+        pair.task(Cell::new(0, 0), Cell::new(0, 0));
+        assert!(pair.clock(Inputs::default()).unreachable);
+    }
     let mut rng = Rng::new(7);
     for map in maps {
         if loadable {
@@ -118,6 +128,18 @@ fn compare(test: &str, maps: &[Map], loadable: bool, tasks: usize) {
                 pair.clock(Inputs::default());
             }
             pair.task(other, to);
+            // One that a reset cuts short.
+            pair.clock(Inputs { begin: Some((to, from)), ..Inputs::default() });
+            for _ in 0..to.x {
+                pair.clock(Inputs::default());
+            }
+            pair.clock(Inputs { reset: true, begin: Some((from, to)), ..Inputs::default() });
+            pair.clock(Inputs::default());
+            // One that may be cut short by loading.
+            pair.clock(Inputs { begin: Some((other, from)), ..Inputs::default() });
+            for _ in 0..from.x {
+                pair.clock(Inputs::default());
+            }
         }
     }
     let (lattice, width, height) = (first.lattice(), first.width(), first.height());
@@ -125,7 +147,7 @@ fn compare(test: &str, maps: &[Map], loadable: bool, tasks: usize) {
     println!(
         "fabric {lattice} {width} x {height}: {} {kind} maps, {} tasks, {} clocks as the model",
         maps.len(),
-        3 * tasks * maps.len(),
+        5 * tasks * maps.len(),
         pair.clocks
     );
 }
@@ -153,6 +175,90 @@ fn fixed_fabrics_do_as_the_model_at_every_clock() {
             compare(&format!("fabric_fixed_{lattice}_{width}_{height}"), &[map], false, 100);
         }
     }
+}
+
+/// The fabric that loads its map itself: tasks while it loads, after that, and after another reset within a task.
+#[test]
+fn the_fabric_that_loads_its_map_does_as_the_model() {
+    let mut arrivals = 0;
+    for lattice in Lattice::ALL {
+        for (width, height) in [(7, 5), (4, 4), (1, 1)] {
+            let map = Map::random(lattice, width, height, 0.2, 3).unwrap();
+            let files = verilog::fabric(&map, true).unwrap();
+            let test = format!("fabric_top_{lattice}_{width}_{height}");
+            let Some(mut gates) = aig(&test, &files, "fabric_top", &[]) else { return };
+            let (mut model, mut rng, cells) = (Fabric::unloaded(&map), Rng::new(5), map.cells());
+            // How many cells are loaded; none before the first reset.
+            let mut loaded = cells;
+            for clock in 0..4000 {
+                let reset = clock < 2 || rng.chance(0.002);
+                let mut end = || Cell::new(rng.below(width) as i32, rng.below(height) as i32);
+                let (from, to) = (end(), end());
+                let begin = rng.chance(0.05).then_some((from, to));
+                let place = Cell::new((loaded as u32 % width) as i32, (loaded as u32 / width) as i32);
+                let load = (loaded < cells).then(|| !map.is_free(place));
+                let ends = [from.x, from.y, to.x, to.y].map(|coordinate| coordinate as u32);
+                let told = [u32::from(reset), u32::from(begin.is_some())].into_iter().chain(ends);
+                let names = ["reset", "begin_task", "start_x", "start_y", "target_x", "target_y"];
+                for (name, number) in names.into_iter().zip(told) {
+                    let port = gates.port(name);
+                    gates.drive_all(&port, number);
+                }
+                gates.clock();
+                let shown = model.clock(Inputs { reset, load, begin });
+                loaded = if reset { 0 } else { cells.min(loaded + 1) };
+                let number = |name| {
+                    let bits = gates.port(name).into_iter().rev().map(|place| gates.seen(place) & 1);
+                    bits.fold(0, |number, bit| number << 1 | bit as i32)
+                };
+                if clock < 2 {
+                    continue;
+                }
+                let flags = [loaded < cells, shown.busy, shown.moving, shown.arrived, shown.unreachable];
+                let seen = ["loading", "busy", "moving", "arrived", "unreachable"].map(number);
+                assert_eq!(seen, flags.map(i32::from), "{lattice} {width} x {height}, clock {clock}");
+                assert_eq!([number("at_x"), number("at_y")], [shown.at.x, shown.at.y]);
+                arrivals += u32::from(shown.arrived);
+            }
+        }
+    }
+    assert!(arrivals > 1000, "{arrivals}");
+    println!("fabric_top: 6 maps, 4000 clocks each as the model, which is loaded beside it");
+}
+
+/// The example drives the way of the core, in both kinds, and compilers take all files as SystemVerilog too.
+#[test]
+fn the_example_drives_a_shortest_way() {
+    let Some([iverilog, vvp]) = common::programs("fabric_example", ["iverilog", "vvp"]) else { return };
+    for lattice in Lattice::ALL {
+        for loadable in [true, false] {
+            let map = Map::random(lattice, 9, 6, 0.25, 5).unwrap();
+            let folder = common::folder(&format!("fabric_example_{lattice}_{loadable}"));
+            let files = verilog::fabric(&map, loadable).unwrap();
+            common::write(&folder, &files);
+            let sources = files.iter().map(|file| file.path.as_str()).filter(|path| path.starts_with("rtl"));
+            let mut compile = common::command(&iverilog, &folder);
+            compile.args(["-g2012", "-Wall", "-Wno-timescale", "-o", "example.vvp"]);
+            let compile = compile.args(sources).arg("tb/fabric_example_tb.v").output().unwrap();
+            assert!(compile.status.success() && compile.stderr.is_empty(), "{compile:?}");
+            let said = common::run(common::command(&vvp, &folder).arg("example.vvp"));
+            assert_eq!(said, example(&map));
+        }
+    }
+    println!("the example prints the way of the core, loaded and wired in, on both lattices");
+}
+
+/// What the example prints.
+fn example(map: &Map) -> String {
+    let show = |cell: Cell| format!("({}, {})", cell.x, cell.y);
+    let (from, to) = long_way(map).unwrap();
+    let way = Fabric::new(map).run(from, to).unwrap();
+    let mut text = format!("the way from {} to {}:\n", show(from), show(to));
+    text.extend(way.iter().map(|&cell| format!("    {}\n", show(cell))));
+    for (number, &cell) in way.iter().enumerate().skip(1) {
+        text += &format!("move {number}: the robot is at {}\n", show(cell));
+    }
+    text + &format!("PASS example: the robot is at its target after {} moves\n", way.len() - 1)
 }
 
 /// Windows of real maps (the `.map` files of MovingAI), at places that depend on the seed alone.
@@ -335,11 +441,11 @@ fn the_bench_passes_and_sees_a_wrong_trace() {
                 std::fs::create_dir_all(path.parent().unwrap()).unwrap();
                 std::fs::write(path, &file.text).unwrap();
             }
-            let sources: Vec<&str> =
-                files.iter().map(|file| file.path.as_str()).filter(|path| !path.ends_with("hex")).collect();
+            let is_source = |path: &&str| path.ends_with(".v") && !path.contains("example");
+            let sources: Vec<&str> = files.iter().map(|file| file.path.as_str()).filter(is_source).collect();
             common::run(
                 common::command(&iverilog, &folder)
-                    .args(["-g2005", "-Wall", "-o", "fabric.vvp"])
+                    .args(["-g2005", "-Wall", "-s", "fabric_tb", "-o", "fabric.vvp"])
                     .args(sources),
             );
             let said = common::run(common::command(&vvp, &folder).arg("fabric.vvp"));

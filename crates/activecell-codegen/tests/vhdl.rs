@@ -176,6 +176,9 @@ fn the_fabrics_test_bench_passes_and_finds_faults() {
             let map = Map::random(lattice, width, height, 0.2, u64::from(width)).unwrap();
             let mut files = vhdl::fabric(&map, loadable).unwrap();
             assert!(passes(&ghdl, &folder, &files, "fabric_tb"), "{lattice} {width} x {height}");
+            let run = ["--elab-run", "--std=93", "fabric_example_tb", "--ieee-asserts=disable-at-0"];
+            let said = common::run(common::command(&ghdl, &folder).args(run));
+            assert!(said.contains("PASS example"), "{said}");
             let trace = files.last_mut().unwrap();
             let place = trace.text.len() - 10; // busy to unreachable of the last line
             trace.text.replace_range(place..=place, "f");
@@ -234,6 +237,7 @@ fn every_navigator_becomes_gates() {
         for loadable in [false, true] {
             becomes_gates(&tools, &folder, &vhdl::fabric(&map, loadable).unwrap(), "fabric");
         }
+        becomes_gates(&tools, &folder, &vhdl::fabric(&map, true).unwrap(), "fabric_top");
     }
     println!("player, windowed navigators and fabrics in VHDL become gates");
 }

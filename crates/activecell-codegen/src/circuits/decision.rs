@@ -36,7 +36,7 @@ pub fn decision(lattice: Lattice) -> Circuit {
         lookup(table.back()),
         "the neighbour before the first, where it does not come last",
     );
-    let before = circuit.wire("before", lookup(table.before()), "those that are asked before that one");
+    let before = circuit.wire("asked_before", lookup(table.before()), "those that are asked before that one");
 
     let vacant = circuit.wire("vacant", not(Expr::Signal(ring1)), "neighbours without an obstacle");
     let left = circuit.wire("left_of", Expr::FromLeft(between), "obstacles to the left of each neighbour");

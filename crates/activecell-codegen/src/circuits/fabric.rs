@@ -16,7 +16,7 @@ pub fn fabric_cell(lattice: Lattice) -> Circuit {
         &format!("fabric_step_{lattice}"),
         "What a cell of the fabric does at the next clock. Lanes are its neighbours, clockwise from the top.",
     );
-    let is_obstacle = circuit.input("is_obstacle", 1, "the cell is an obstacle");
+    let is_free = circuit.input("is_free", 1, "the cell is no obstacle");
     let is_target = circuit.input("is_target", 1, "the robot wants to come here");
     let is_start = circuit.input("is_start", 1, "the robot stands here");
     let is_front = circuit.input("is_front", 1, "the wave has come here at this clock");
@@ -26,7 +26,7 @@ pub fn fabric_cell(lattice: Lattice) -> Circuit {
     let came = circuit.wire("is_beside", any(signal(around)), "the wave has come to a neighbour");
     circuit.output(
         "reached_next",
-        Expr::And(vec![super::not(signal(is_obstacle)), Expr::Or(vec![signal(came), signal(is_target)])]),
+        Expr::And(vec![signal(is_free), Expr::Or(vec![signal(came), signal(is_target)])]),
         "whether the wave has come here",
     );
     circuit.output(

@@ -69,7 +69,7 @@ pub struct Fabric {
     neighbours: Vec<[usize; 6]>,
     /// What [`fabric_cell`] says, for all its inputs.
     rule: Vec<State>,
-    obstacles: Vec<bool>,
+    free: Vec<bool>,
     /// One more than there are cells: nothing, for what lies outside.
     cells: Vec<State>,
     task: Option<(Cell, Cell)>,
@@ -101,7 +101,7 @@ impl Fabric {
             width: map.width(),
             neighbours: cells.iter().map(around).collect(),
             rule: rule(lattice),
-            obstacles: cells.iter().map(|&cell| !map.is_free(cell)).collect(),
+            free: cells.iter().map(|&cell| map.is_free(cell)).collect(),
             cells: vec![State::default(); cells.len() + 1],
             task: None,
             warm_up: 0,
@@ -111,6 +111,12 @@ impl Fabric {
         }
     }
 
+    /// The fabric for maps of this lattice and size as it powers up, with none loaded: no cell is free.
+    pub fn unloaded(map: &Map) -> Self {
+        let fabric = Self::new(map);
+        Self { free: vec![false; fabric.free.len()], ..fabric }
+    }
+
     /// A clock: what is shown after it.
     pub fn clock(&mut self, inputs: Inputs) -> Outputs {
         let stop = inputs.reset || inputs.load.is_some();
@@ -118,9 +124,9 @@ impl Fabric {
         self.clock_control(inputs.begin, stop);
         self.clock_cells(clear);
         if let Some(obstacle) = inputs.load {
-            self.obstacles.rotate_left(1);
-            if let Some(last) = self.obstacles.last_mut() {
-                *last = obstacle;
+            self.free.rotate_left(1);
+            if let Some(last) = self.free.last_mut() {
+                *last = !obstacle;
             }
         }
         self.task = if stop { None } else { inputs.begin.or(self.task) };
@@ -156,12 +162,12 @@ impl Fabric {
         let watched = Colours::of_neighbours(self.lattice);
         let is_front =
             |(number, state): (usize, &State)| state.is_front() && watched.of(self.cell(number)) != 0;
-        self.cells[..self.obstacles.len()].iter().enumerate().any(is_front)
+        self.cells[..self.free.len()].iter().enumerate().any(is_front)
     }
 
     fn clock_cells(&mut self, clear: bool) {
         let [start, target] = [self.task.map(|task| task.0), self.task.map(|task| task.1)];
-        let next = (0..self.obstacles.len()).map(|number| {
+        let next = (0..self.free.len()).map(|number| {
             let here = self.cells[number];
             let cell = Some(self.cell(number));
             let (mut around, mut entering) = (0, 0);
@@ -171,7 +177,7 @@ impl Fabric {
                 around |= usize::from(neighbour.reached) << dir.0;
                 entering |= usize::from(neighbour.active && points_here) << dir.0;
             }
-            let flags = [self.obstacles[number], cell == target, cell == start, here.is_front()];
+            let flags = [self.free[number], cell == target, cell == start, here.is_front()];
             let flags = flags.iter().rev().fold(0, |sum, &flag| sum << 1 | usize::from(flag));
             let next = self.rule[flags | around << 4 | entering << (4 + self.lattice.degree())];
             let pointer = if here.reached { here.pointer } else { next.pointer };
@@ -204,17 +210,17 @@ impl Fabric {
 
     /// Whether the wave has come to each cell, in row order.
     pub fn reached(&self) -> impl Iterator<Item = bool> + '_ {
-        self.cells[..self.obstacles.len()].iter().map(|cell| cell.reached)
+        self.cells[..self.free.len()].iter().map(|cell| cell.reached)
     }
 
     /// Whether each cell is active, in row order.
     pub fn active(&self) -> impl Iterator<Item = bool> + '_ {
-        self.cells[..self.obstacles.len()].iter().map(|cell| cell.active)
+        self.cells[..self.free.len()].iter().map(|cell| cell.active)
     }
 
     /// Where each cell points, a bit a direction, in row order. Without meaning where the wave has not come.
     pub fn pointers(&self) -> impl Iterator<Item = u8> + '_ {
-        self.cells[..self.obstacles.len()].iter().map(|cell| cell.pointer)
+        self.cells[..self.free.len()].iter().map(|cell| cell.pointer)
     }
 
     const fn cell(&self, number: usize) -> Cell {

@@ -9,7 +9,11 @@ pub fn module(circuit: &Circuit) -> String {
     let ports: Vec<(&str, &Port)> =
         inputs.chain(circuit.outputs().map(|wire| ("output", &wire.port))).collect();
     let names = ports.iter().map(|(_, port)| port.name.len()).max().unwrap_or(0) + 1;
-    let mut text = format!("// {}\nmodule {} (\n", circuit.about.replace('\n', "\n// "), circuit.name);
+    let mut text = format!(
+        "// {}\n`default_nettype none\n\nmodule {} (\n",
+        circuit.about.replace('\n', "\n// "),
+        circuit.name
+    );
     for (i, (direction, Port { name, width, about })) in ports.iter().enumerate() {
         let name = if i + 1 == ports.len() { name.clone() } else { format!("{name},") };
         text += &format!("    {direction} wire {} {name:names$} // {about}\n", range(*width));
@@ -18,7 +22,7 @@ pub fn module(circuit: &Circuit) -> String {
     for wire in &circuit.wires {
         text += &statement(circuit, wire);
     }
-    text + "endmodule\n"
+    text + "endmodule\n\n`default_nettype wire\n"
 }
 
 fn range(width: u32) -> String {

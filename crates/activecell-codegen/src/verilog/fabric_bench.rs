@@ -9,15 +9,19 @@ use activecell::{Cell, Map, Rng};
 /// Tasks between free cells on a map.
 const TASKS: usize = 20;
 
-/// The bench and its clocks: tasks between free cells, one that cannot be, one cut short; on a loadable fabric the same
-/// on an empty map after that.
+/// The bench and its clocks: tasks between free cells, one that cannot be, one cut short; a loadable fabric
+/// begins without a map, and does the same on an empty map after that, which it loads while it is at a task.
 pub(crate) fn bench(map: &Map, loadable: bool) -> [SourceFile; 2] {
-    let mut clocks = Clocks { fabric: Fabric::new(map), lines: String::new(), count: 0 };
+    let fabric = if loadable { Fabric::unloaded(map) } else { Fabric::new(map) };
+    let mut clocks = Clocks { fabric, lines: String::new(), count: 0 };
     for _ in 0..2 {
         clocks.clock(Inputs { reset: true, ..Inputs::default() });
     }
     let free: Vec<Cell> = map.free().collect();
     if loadable {
+        let cell = free.first().copied().unwrap_or_default();
+        clocks.begin(cell, cell);
+        clocks.wait();
         clocks.load(|x, y| map.obstacles().get(x, y), map);
     }
     clocks.tasks(&free, map);
@@ -69,6 +73,11 @@ impl Clocks {
         shown.busy
     }
 
+    /// Waits for the end of the task, if one is being done.
+    fn wait(&mut self) {
+        while self.clock(Inputs::default()) {}
+    }
+
     fn load(&mut self, is_obstacle: impl Fn(u32, u32) -> bool, map: &Map) {
         for (x, y) in (0..map.height()).flat_map(|y| (0..map.width()).map(move |x| (x, y))) {
             self.clock(Inputs { load: Some(is_obstacle(x, y)), ..Inputs::default() });
@@ -86,17 +95,22 @@ impl Clocks {
         let mut end = || free.get(rng.below(free.len().max(1) as u32) as usize).copied().unwrap_or_default();
         ends.extend((0..TASKS).map(|_| (end(), end())));
         for (from, to) in ends {
-            let mut is_busy = self.begin(from, to);
-            while is_busy {
-                is_busy = self.clock(Inputs::default());
-            }
+            self.begin(from, to);
+            self.wait();
         }
-        // A task that another cuts short.
+        // A task that another cuts short, when its wave has begun and when the robot is on its way.
+        for clocks in [1, map.width() + map.height()] {
+            self.begin(end(), end());
+            (0..clocks).for_each(|_| _ = self.clock(Inputs::default()));
+            self.begin(end(), end());
+            self.wait();
+        }
+        // One that a reset cuts short, which also wins against the beginning of another.
         self.begin(end(), end());
-        self.clock(Inputs::default());
-        let mut is_busy = self.begin(end(), end());
-        while is_busy {
-            is_busy = self.clock(Inputs::default());
-        }
+        (0..8).for_each(|_| _ = self.clock(Inputs::default()));
+        self.clock(Inputs { reset: true, begin: Some((end(), end())), ..Inputs::default() });
+        // One that is not done when loading begins.
+        self.begin(end(), end());
+        (0..8).for_each(|_| _ = self.clock(Inputs::default()));
     }
 }

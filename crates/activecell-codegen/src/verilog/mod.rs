@@ -8,7 +8,7 @@ mod windowed;
 
 pub use circuit::module;
 pub use fabric::{MAX_FABRIC_CELLS, fabric};
-pub(crate) use fabric::{checked, neighbour};
+pub(crate) use fabric::{checked, neighbour, rows_of_bits, shared_values};
 pub(crate) use fabric_bench::bench as fabric_bench;
 pub use player::{control_unit, player};
 pub use windowed::windowed;

@@ -2,9 +2,8 @@
 
 use super::{bench_lines, entity, lanes};
 use crate::colours::{Colours, goes, leads};
-use crate::images::bits_below;
 use crate::template::fill;
-use crate::verilog::{checked, neighbour};
+use crate::verilog::{checked, neighbour, rows_of_bits, shared_values};
 use crate::{SourceFile, circuits, verilog};
 use activecell::{Dir, Error, Lattice, Map};
 
@@ -27,7 +26,7 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
     let lattice = map.lattice();
     let step = circuits::fabric_cell(lattice);
     let values = values(map, loadable);
-    let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
+    // Some values have places of their own.
     let filled =
         |path: String, template: &str| SourceFile::new(path, fill(&fill(template, &values), &values));
     let mut files = vec![
@@ -35,9 +34,15 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
         SourceFile::new(format!("rtl/{}.vhd", step.name), entity(&step)),
         filled(format!("rtl/fabric_cell_{lattice}.vhd"), include_str!("templates/fabric_cell.vhd")),
         filled("rtl/fabric.vhd".into(), include_str!("templates/fabric.vhd")),
+    ];
+    if loadable {
+        files.push(filled("rtl/fabric_top.vhd".into(), include_str!("templates/fabric_top.vhd")));
+    }
+    files.extend([
+        filled("tb/fabric_example_tb.vhd".into(), include_str!("templates/fabric_example_tb.vhd")),
         bench_lines(),
         filled("tb/fabric_tb.vhd".into(), include_str!("templates/fabric_tb.vhd")),
-    ];
+    ]);
     let [_, trace] = verilog::fabric_bench(map, loadable);
     files.push(trace);
     Ok(files)
@@ -45,8 +50,7 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
 
 fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
     let lattice = map.lattice();
-    let names: Vec<&str> = lattice.dirs().map(|dir| lattice.dir_name(dir)).collect();
-    let [column_bits, row_bits] = [map.width(), map.height()].map(bits_below);
+    let (width, height) = (map.width(), map.height());
     let odd = match lattice {
         Lattice::Square => "",
         Lattice::Hex => {
@@ -59,47 +63,47 @@ fn values(map: &Map, loadable: bool) -> Vec<(&'static str, String)> {
             format!("leaving({}*{neighbour} + {})", lattice.degree(), lattice.opposite(dir).0)
         }),
     ];
-    let colours = Colours::of_moves(lattice);
     let [move_signals, moves] = moves(lattice);
     let choose = |yes: &str, no: &str| String::from(if loadable { yes } else { no });
-    vec![
+    let generics = format!(
+        "        WIDTH       : positive := {width}; -- columns\n        HEIGHT      : positive := {height}; -- rows\n"
+    );
+    let constants = format!(
+        "    constant WIDTH   : positive := {width};\n    constant HEIGHT  : positive := {height};\n"
+    );
+    let own = vec![
+        ("SIZE_GENERICS", choose(&generics, "")),
+        ("SIZE_CONSTANTS", choose("", &constants)),
         ("MAP_PORTS", choose(include_str!("templates/fabric_map_ports.vhd"), "")),
         ("MAP_CONNECTIONS", choose("load_map => told(2), scan_in => told(1), scan_out => open, ", "")),
         ("LOADING", choose(include_str!("templates/fabric_loading.vhd"), "")),
+        ("LOADING_PORT", choose("loading => loading, ", "")),
         ("STOP", choose("reset or load_map", "reset")),
-        ("MAP", if loadable { LOADED.into() } else { fixed(map) }),
+        ("MAP", choose(LOADED, FIXED)),
+        ("ROWS", rows(map)),
         ("ODD", odd.into()),
         ("AROUND", around.concat()),
-        ("COLOURS", colours.count.to_string()),
-        ("COLOUR", colours.formula("x", "y", "mod")),
+        ("COLOUR", Colours::of_moves(lattice).formula("x", "y", "mod")),
         ("WATCHED", Colours::of_neighbours(lattice).formula("x", "y", "mod")),
         ("MOVE_SIGNALS", move_signals),
         ("MOVES", moves),
-        ("LATTICE", lattice.name().into()),
-        ("DEGREE", lattice.degree().to_string()),
-        ("TOP", (lattice.degree() - 1).to_string()),
-        ("NAMES", names.join(", ")),
-        ("WIDTH", map.width().to_string()),
-        ("HEIGHT", map.height().to_string()),
-        ("COLUMN_BITS", column_bits.to_string()),
-        ("ROW_BITS", row_bits.to_string()),
-    ]
+    ];
+    [own, shared_values(map, loadable, "--")].concat()
 }
 
-const LOADED: &str = "    -- The map: a chain of registers through all cells, 1 for an obstacle.
-    signal obstacles : std_logic_vector(0 to CELLS - 1) := (others => '0');
+const LOADED: &str = "    -- The map: a chain of registers through all cells, 1 for a free cell. All are obstacles after power-up.
+    signal free : std_logic_vector(0 to CELLS - 1) := (others => '0');
+";
+
+const FIXED: &str = "    -- The map: 1 for an obstacle. Cells that are obstacles need no hardware.
+    constant OBSTACLES : std_logic_vector(0 to CELLS - 1) :=
+@ROWS@;
+    constant FREE : std_logic_vector(0 to CELLS - 1) := not OBSTACLES;
 ";
 
 /// The map as rows of bits that read as it lies.
-fn fixed(map: &Map) -> String {
-    let bit = |x, y| if map.obstacles().get(x, y) { '1' } else { '0' };
-    let row = |y| format!("        \"{}\"", (0..map.width()).map(|x| bit(x, y)).collect::<String>());
-    let rows: Vec<String> = (0..map.height()).map(row).collect();
-    format!(
-        "    -- The map: 1 for an obstacle. Cells that are obstacles need no hardware.\n    \
-         constant OBSTACLES : std_logic_vector(0 to CELLS - 1) :=\n{};\n",
-        rows.join(" &\n")
-    )
+fn rows(map: &Map) -> String {
+    rows_of_bits(map).map(|row| format!("        \"{row}\"")).collect::<Vec<_>>().join(" &\n")
 }
 
 /// A bit from each neighbour, the last lane first.

@@ -37,7 +37,7 @@ pub(crate) fn aig(test: &str, files: &[SourceFile], top: &str, wires: &[&str]) -
         wires.iter().fold(String::new(), |script, name| script + &format!("expose {top}/w:{name}; "));
     let script = format!(
         "read_verilog {}; hierarchy -check -top {top}; proc; flatten; {expose}opt; techmap; opt; \
-         dfflegalize -cell $_DFF_P_ x; setundef -zero; aigmap; opt_clean; write_aiger -ascii -symbols design.aag",
+         dfflegalize -cell $_DFF_P_ 0; setundef -zero; aigmap; opt_clean; write_aiger -ascii -symbols design.aag",
         sources.join(" ")
     );
     yosys(&program, &folder, &script);

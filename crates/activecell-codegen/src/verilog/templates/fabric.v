@@ -1,44 +1,43 @@
-// The fabric: the map as cells of hardware, each a small automaton (@LATTICE@, @WIDTH@ by @HEIGHT@ cells).
-//
-// A wave spreads from the target, a cell a clock. Each free cell keeps the direction from which the wave came
-// first: its pointer. When the wave comes to the start, the start becomes the active cell; the active bit
-// then follows the pointers, a move a clock, along a shortest way. At the target, which has no pointer, it
-// ends.
-//
-// Cells are counted in columns from the left and rows from the top, from 0.
-// A task whose way has n steps takes 2 n + 7 clocks, the one in which it begins among them.
+@ABOUT@
+`default_nettype none
+
 module fabric #(
-    parameter WIDTH = @WIDTH@,         // columns
-    parameter HEIGHT = @HEIGHT@,        // rows
-    parameter COLUMN_BITS = @COLUMN_BITS@,    // enough for WIDTH - 1
+@SIZE_PARAMETERS@    parameter COLUMN_BITS = @COLUMN_BITS@,    // enough for WIDTH - 1
     parameter ROW_BITS = @ROW_BITS@        // enough for HEIGHT - 1
 ) (
     input  wire                   clk,
-    input  wire                   reset,       // ends any task
-@MAP_PORTS@    input  wire                   begin_task,  // takes the four inputs below and begins, also within a task
-    input  wire [COLUMN_BITS-1:0] start_x,
+    input  wire                   reset,       // active high; ends any task, begins none; needed at first
+@MAP_PORTS@    input  wire                   begin_task,  // for one clock: a task begins, in place of any other
+    input  wire [COLUMN_BITS-1:0] start_x,     // column and row where the robot is, taken with begin_task
     input  wire [ROW_BITS-1:0]    start_y,
-    input  wire [COLUMN_BITS-1:0] target_x,
+    input  wire [COLUMN_BITS-1:0] target_x,    // where it is to go; an obstacle, or outside: unreachable
     input  wire [ROW_BITS-1:0]    target_y,
     output reg                    busy,        // a task is being done
-    output reg                    moving,      // the robot was in the cell below, three clocks ago
-    output reg  [COLUMN_BITS-1:0] at_x,        // where the robot was, three clocks ago; where it stands
-    output reg  [ROW_BITS-1:0]    at_y,
-    output reg                    arrived,     // the task is done: the robot is at the target
+    output reg                    moving,      // at_x, at_y are a cell of the way
+    output reg  [COLUMN_BITS-1:0] at_x,        // while moving one cell of the way a clock: first the start,
+    output reg  [ROW_BITS-1:0]    at_y,        //   last the target, where they stay
+    output reg                    arrived,     // the task is done: the way was shown to its end
     output reg                    unreachable  // the task is done: no way leads to the target
 );
-    localparam CELLS = WIDTH * HEIGHT;
+@SIZE_CONSTANTS@    localparam CELLS = WIDTH * HEIGHT;
     localparam COLOURS = @COLOURS@; // a cell and its neighbours all have different ones
 
-@MAP@
-    wire clear = stop | begin_task;
+    generate
+        if (WIDTH > 1 << COLUMN_BITS || HEIGHT > 1 << ROW_BITS) begin : guard
+            // There is no such module: its name is the message.
+            COLUMN_BITS_or_ROW_BITS_of_fabric_are_too_few stop_here ();
+        end
+    endgenerate
+
+@MAP@    wire clear = stop | begin_task;
 
     // The task, one bit a column and a row: short wires instead of comparisons in every cell.
+    localparam [WIDTH-1:0]  FIRST_COLUMN = 1;
+    localparam [HEIGHT-1:0] FIRST_ROW = 1;
     reg [WIDTH-1:0]  start_column;
     reg [HEIGHT-1:0] start_row;
     reg [WIDTH-1:0]  target_column;
     reg [HEIGHT-1:0] target_row;
-    integer i;
     always @(posedge clk)
         if (stop) begin
             start_column <= 0;
@@ -46,14 +45,10 @@ module fabric #(
             target_column <= 0;
             target_row <= 0;
         end else if (begin_task) begin
-            for (i = 0; i < WIDTH; i = i + 1) begin
-                start_column[i] <= start_x == i;
-                target_column[i] <= target_x == i;
-            end
-            for (i = 0; i < HEIGHT; i = i + 1) begin
-                start_row[i] <= start_y == i;
-                target_row[i] <= target_y == i;
-            end
+            start_column <= FIRST_COLUMN << start_x;
+            start_row <= FIRST_ROW << start_y;
+            target_column <= FIRST_COLUMN << target_x;
+            target_row <= FIRST_ROW << target_y;
         end
 
 `ifdef FORMAL
@@ -64,26 +59,30 @@ module fabric #(
 `endif
 
     // The cells, within a frame of places where nothing is ever reached: the map's row 0 is row 1 here, its
-    // column 0 is column 1. Each place has wires of its own, for its neighbours to look at; simulators wake
-    // only these neighbours then, not all that look at a bit of some vector of the whole map.
+    // column 0 is column 1. Arrays, not vectors of the whole map: each place is a wire of its own, and
+    // simulators wake only those that look at it.
+    wire               reached [0:HEIGHT + 1][0:WIDTH + 1];
+    wire               active [0:HEIGHT + 1][0:WIDTH + 1];
+    wire [@TOP@:0]         leaving [0:HEIGHT + 1][0:WIDTH + 1];
+    wire [COLOURS-1:0] colour_seen [0:HEIGHT + 1][0:WIDTH + 1]; // the robot's, if it is here or further left
+    wire               wave_seen [0:HEIGHT + 1][0:WIDTH + 1]; // coming to a watched cell here or further left
     genvar x, y;
     generate
         for (y = 0; y < HEIGHT + 2; y = y + 1) begin : row
             for (x = 0; x < WIDTH + 2; x = x + 1) begin : column
-                wire       reached;
-                wire       active;
-                wire [@TOP@:0] leaving;
-                wire [COLOURS-1:0] colour_seen; // the robot's, if it is here or further left in this row
-                wire       front_seen; // the wave, coming to a watched cell here or further left
-                if (x == 0 || x > WIDTH || y == 0 || y > HEIGHT) begin : outside
-                    assign {reached, active, leaving, colour_seen, front_seen} = 0;
-                end else begin : inside
+                if (x == 0 || x > WIDTH || y == 0 || y > HEIGHT) begin : frame
+                    assign reached[y][x] = 1'b0;
+                    assign active[y][x] = 1'b0;
+                    assign leaving[y][x] = 0;
+                    assign colour_seen[y][x] = 0;
+                    assign wave_seen[y][x] = 1'b0;
+                end else begin : on_map
                     localparam COLUMN = x - 1;
                     localparam ROW = y - 1;
                     localparam HERE = ROW * WIDTH + COLUMN; // the number of the cell on the map
                     localparam COLOUR = @COLOUR@;
                     localparam WATCHED = @WATCHED@ != 0; // one of two side by side is
-@ODD@                    wire here_is_target = target_column[COLUMN] & target_row[ROW];
+@ODD@@IS_FREE@                    wire here_is_target = target_column[COLUMN] & target_row[ROW];
                     wire here_is_start = start_column[COLUMN] & start_row[ROW];
                     wire is_front;
                     wire [@TOP@:0] reached_around = {
@@ -96,33 +95,34 @@ module fabric #(
                     fabric_cell_@LATTICE@ cell_here (
                         .clk(clk),
                         .clear(clear),
-                        .is_obstacle(obstacles[HERE]),
+                        .is_free(is_free),
                         .is_target(here_is_target),
                         .is_start(here_is_start),
                         .reached_around(reached_around),
                         .entering(entering),
-                        .reached(reached),
+                        .reached(reached[y][x]),
                         .is_front(is_front),
                         .pointer(pointer),
-                        .active(active),
-                        .leaving(leaving)
+                        .active(active[y][x]),
+                        .leaving(leaving[y][x])
                     );
-                    assign colour_seen = row[y].column[x - 1].colour_seen | active << COLOUR;
-                    assign front_seen = row[y].column[x - 1].front_seen | (WATCHED & is_front);
+                    assign colour_seen[y][x] = colour_seen[y][x - 1] | active[y][x] << COLOUR;
+                    assign wave_seen[y][x] = wave_seen[y][x - 1] | (WATCHED & is_front);
 
 `ifdef FORMAL
-                    assign formal_active[HERE] = active;
+                    wire here_is_reached = reached[y][x];
+                    assign formal_active[HERE] = active[y][x];
                     always @*
                         if (formal_begun) begin
                             // The wave never enters an obstacle, the robot goes where the wave has been.
-                            assert (!(reached && obstacles[HERE]));
-                            assert (!active || reached);
+                            assert (!here_is_reached || is_free);
+                            assert (!formal_active[HERE] || here_is_reached);
                             // A pointer leads to a cell that the wave has reached; only the target has none.
-                            assert (!reached || (pointer & ~reached_around) == 0);
-                            assert (!reached || (pointer & (pointer - 1)) == 0);
-                            assert (!reached || pointer != 0 || here_is_target);
+                            assert (!here_is_reached || (pointer & ~reached_around) == 0);
+                            assert (!here_is_reached || (pointer & (pointer - 1)) == 0);
+                            assert (!here_is_reached || pointer != 0 || here_is_target);
                             // The start makes the active bit once: afterwards it is reached for good.
-                            assert (!here_is_start || formal_active == 0 || (reached && !is_front));
+                            assert (!here_is_start || formal_active == 0 || (here_is_reached && !is_front));
                         end
 `endif
                 end
@@ -138,17 +138,18 @@ module fabric #(
     generate
         for (y = 0; y < HEIGHT; y = y + 1) begin : row_sum
             always @(posedge clk) begin
-                row_colour[COLOURS*y +: COLOURS] <= clear ? 0 : row[y + 1].column[WIDTH].colour_seen;
-                row_front[y] <= ~clear & row[y + 1].column[WIDTH].front_seen;
+                row_colour[COLOURS*y +: COLOURS] <= clear ? 0 : colour_seen[y + 1][WIDTH];
+                row_front[y] <= ~clear & wave_seen[y + 1][WIDTH];
             end
         end
     endgenerate
 
     reg [COLOURS-1:0] colour_in_rows;
-    always @* begin
+    always @* begin : all_rows
+        integer each;
         colour_in_rows = 0;
-        for (i = 0; i < HEIGHT; i = i + 1)
-            colour_in_rows = colour_in_rows | row_colour[COLOURS*i +: COLOURS];
+        for (each = 0; each < HEIGHT; each = each + 1)
+            colour_in_rows = colour_in_rows | row_colour[COLOURS*each +: COLOURS];
     end
 
     reg [COLOURS-1:0] colour;      // the robot's colour, two clocks ago; none before the wave has come to it
@@ -211,3 +212,5 @@ module fabric #(
             assume (reset);
 `endif
 endmodule
+
+`default_nettype wire

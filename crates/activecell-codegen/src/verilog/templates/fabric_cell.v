@@ -1,9 +1,11 @@
 // A cell of the fabric on the @LATTICE@ lattice: it knows its neighbours and nothing else.
 // Lanes are the neighbours, clockwise from the top: @NAMES@ (bit 0 first).
+`default_nettype none
+
 module fabric_cell_@LATTICE@ (
     input  wire       clk,
     input  wire       clear,          // forget the last task
-    input  wire       is_obstacle,    // this cell is an obstacle
+    input  wire       is_free,        // this cell is no obstacle
     input  wire       is_target,      // the robot wants to come here
     input  wire       is_start,       // the robot stands here when the task begins
     input  wire [@TOP@:0] reached_around, // neighbours to which the wave has come
@@ -18,7 +20,7 @@ module fabric_cell_@LATTICE@ (
     wire [@TOP@:0] pointer_next;
     wire       active_next;
     fabric_step_@LATTICE@ step (
-        .is_obstacle(is_obstacle),
+        .is_free(is_free),
         .is_target(is_target),
         .is_start(is_start),
         .is_front(is_front),
@@ -56,3 +58,5 @@ module fabric_cell_@LATTICE@ (
             closed <= ~pointer_next;
     end
 endmodule
+
+`default_nettype wire

@@ -2,5 +2,4 @@
     localparam [0:CELLS-1] OBSTACLES = {
 @ROWS@
     };
-    wire [0:CELLS-1] obstacles = OBSTACLES;
     wire stop = reset;

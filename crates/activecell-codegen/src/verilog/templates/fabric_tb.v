@@ -1,6 +1,8 @@
 // A bench that checks the fabric by itself: at every clock the inputs of a line of tb/fabric.hex, and what
 // must be seen after the clock, as the model in Rust says. Run it in the folder above rtl and tb.
 `timescale 1ns / 1ps
+`default_nettype none
+
 module fabric_tb;
     localparam CLOCKS = @CLOCKS@;
 
@@ -63,3 +65,5 @@ module fabric_tb;
         $finish;
     end
 endmodule
+
+`default_nettype wire

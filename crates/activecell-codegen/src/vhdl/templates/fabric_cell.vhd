@@ -7,7 +7,7 @@ entity fabric_cell_@LATTICE@ is
     port (
         clk            : in  std_logic;
         clear          : in  std_logic;                    -- forget the last task
-        is_obstacle    : in  std_logic;                    -- this cell is an obstacle
+        is_free        : in  std_logic;                    -- this cell is no obstacle
         is_target      : in  std_logic;                    -- the robot wants to come here
         is_start       : in  std_logic;                    -- the robot stands here when the task begins
         reached_around : in  std_logic_vector(@TOP@ downto 0); -- neighbours to which the wave has come
@@ -36,7 +36,7 @@ architecture rtl of fabric_cell_@LATTICE@ is
 begin
     step : entity work.fabric_step_@LATTICE@
         port map (
-            is_obstacle => is_obstacle, is_target => is_target, is_start => is_start, is_front => has_come,
+            is_free => is_free, is_target => is_target, is_start => is_start, is_front => has_come,
             reached_around => reached_around, entering => entering,
             reached_next => reached_next, pointer_next => pointer_next, active_next => active_next
         );
