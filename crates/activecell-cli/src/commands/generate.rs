@@ -59,7 +59,8 @@ fn made(args: &GenerateArgs, terminal: &Terminal) -> anyhow::Result<Bundle> {
         _ => long_way(&map)?,
     };
     let robot = robot.unwrap_or_default();
-    let order = Order { map: &map, from, to, robot: &robot, fixed_map: args.fixed_map };
+    let command = command();
+    let order = Order { map: &map, from, to, robot: &robot, fixed_map: args.fixed_map, command: &command };
     Ok(generate(language, Some(&order))?)
 }
 
@@ -92,18 +93,35 @@ fn text(args: &GenerateArgs, bundle: &Bundle) -> String {
         before = size.part;
     }
     if bundle.files.iter().any(|file| file.path == "Makefile") {
-        let quoted = quoted(&folder.to_string());
-        text += &format!("next: make -C {quoted} sim; {folder}/README.md tells the rest\n");
+        let word = folder_word(&folder.to_string());
+        text += &format!("next: make -C {word} sim; {folder}/README.md tells the rest\n");
     }
     text
 }
 
-/// As one word of a shell.
-fn quoted(text: &str) -> String {
-    let is_plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
-    if text.chars().all(is_plain) && !text.starts_with('-') {
-        return text.into();
+/// The command as it was typed, into any folder, without what changes no file.
+fn command() -> String {
+    let is_silent = |word: &str| matches!(word, "-q" | "--quiet" | "-v" | "--verbose" | "--json");
+    let mut text = "activecell".to_owned();
+    let mut words = std::env::args().skip(1);
+    while let Some(given) = words.next() {
+        if given == "-o" || given == "--output" {
+            words.next();
+        } else if !given.starts_with("-o") && !given.starts_with("--output=") && !is_silent(&given) {
+            text += " ";
+            text += &word(&given);
+        }
     }
-    let dot = if text.starts_with('-') { "./" } else { "" };
-    format!("'{dot}{}'", text.replace('\'', "'\\''"))
+    text + " -o DIR"
+}
+
+/// A folder as one word of a shell, which is no option.
+fn folder_word(text: &str) -> String {
+    if text.starts_with('-') { word(&format!("./{text}")) } else { word(text) }
+}
+
+/// As one word of a shell.
+fn word(text: &str) -> String {
+    let is_plain = |c: char| c.is_alphanumeric() || "/._-+=:,@%".contains(c);
+    if text.chars().all(is_plain) { text.into() } else { format!("'{}'", text.replace('\'', "'\\''")) }
 }

@@ -3,6 +3,7 @@
 mod check;
 mod makefile;
 mod readme;
+mod robot;
 mod size;
 
 pub use check::GenerateError;
@@ -48,6 +49,8 @@ pub struct Order<'a> {
     pub robot: &'a Robot,
     /// The fabric's map is wired in instead of loaded.
     pub fixed_map: bool,
+    /// The command that makes it again, for the README; may be empty.
+    pub command: &'a str,
 }
 
 /// What a generator gives.
@@ -73,7 +76,7 @@ pub struct Bundle {
 /// use activecell_codegen::{Language, Order, generate, long_way};
 /// let map = Map::parse(Lattice::Square, "...\n.#.\n...")?;
 /// let (from, to) = long_way(&map)?;
-/// let order = Order { map: &map, from, to, robot: &Robot::default(), fixed_map: false };
+/// let order = Order { map: &map, from, to, robot: &Robot::default(), fixed_map: false, command: "" };
 /// let bundle = generate(Language::C, Some(&order))?;
 /// assert!(bundle.files.iter().any(|file| file.path == "README.md"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -116,13 +119,27 @@ struct Parts {
 }
 
 impl Parts {
-    /// With the Makefile and the README; they come last, so that a folder that has them is whole.
+    /// With the Makefile and the README.
     fn bundled(self, language: Language, order: Option<&Order<'_>>) -> Bundle {
         let readme = readme::readme(language, order, &self);
         let makefile = order.map(|_| makefile::makefile(language, &self.designs));
-        let files = self.files.into_iter().chain(makefile).chain([readme]).collect();
+        let files = self.files.into_iter().chain(makefile).map(licensed).chain([readme]).collect();
         Bundle { files, sizes: self.sizes, notes: self.notes }
     }
+}
+
+/// A source with its licence above it; memory images stay as they are.
+fn licensed(file: SourceFile) -> SourceFile {
+    let ending = file.path.rsplit(['.', '/']).next().unwrap_or_default();
+    let [open, close] = match ending {
+        "c" | "h" | "ld" => ["/* ", " */"],
+        "v" => ["// ", ""],
+        "vhd" => ["-- ", ""],
+        "Makefile" | "mk" => ["# ", ""],
+        _ => return file,
+    };
+    let text = format!("{open}SPDX-License-Identifier: {}{close}\n{}", env!("CARGO_PKG_LICENSE"), file.text);
+    SourceFile { text, ..file }
 }
 
 /// A part of the hardware that stands alone.

@@ -327,7 +327,7 @@ fn the_example_for_a_board_runs() {
             Some(_) => long_way(map).unwrap(),
             None => (Cell::new(0, 0), Cell::new(1, 0)),
         };
-        let order = Order { map, from, to, robot: &robot, fixed_map: false };
+        let order = Order { map, from, to, robot: &robot, fixed_map: false, command: "" };
         let folder = common::folder(&format!("example_{}_{}", map.lattice(), map.width()));
         common::write(&folder, &generate(Language::C, Some(&order)).unwrap().files);
         let output = common::command(&make, &folder).arg("board").output().unwrap();

@@ -1,7 +1,7 @@
 //! Which cells are closed when.
 
-use super::avoid::Slots;
 use super::capsule::Capsule;
+use super::slots::Slots;
 use super::track::Track;
 use super::window::{self, Rows, Window};
 use crate::error::Error;

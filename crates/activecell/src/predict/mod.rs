@@ -12,16 +12,18 @@ mod capsule;
 mod closures;
 mod contact;
 mod plan;
+mod slots;
 mod track;
 mod turning;
 mod window;
 
-pub use avoid::{Avoider, Slots};
+pub use avoid::Avoider;
 pub use capsule::Capsule;
 pub use closures::Closures;
 pub(crate) use closures::likely;
 pub use contact::{Contact, first_contact};
 pub use plan::{Facing, Plan, Step};
+pub use slots::Slots;
 pub use track::{Bounds, Track};
 pub use turning::{Forecast, Turning};
 

@@ -10,23 +10,23 @@ YOSYS    ?= yosys
 NEXTPNR  ?= nextpnr-ice40
 
 @DESIGNS@
-FLAGS     = --std=93 --workdir=build/$*
+FLAGS     = --std=93 --workdir=build/$@
 
 @TARGETS@
 $(DESIGNS:%=sim-%): sim-%:
-	@mkdir -p build/$*
+	@mkdir -p build/$@
 	@echo "$*: simulating …"
 	@$(GHDL) -a $(FLAGS) $($*_RTL) tb/hex_lines.vhd tb/$*_tb.vhd
-	@$(GHDL) -e $(FLAGS) -o build/$*/$*_tb $*_tb
+	@$(GHDL) -e $(FLAGS) -o build/$@/$*_tb $*_tb
 	@$(GHDL) -r $(FLAGS) $*_tb --ieee-asserts=disable-at-0 2>&1 | sed 's/.*(report note): //' | tee build/$*.log
 	@grep -q '^PASS' build/$*.log
 
 # GHDL makes Verilog of the design, yosys gates of that. GHDL drops attributes, so yosys is told to take block RAM.
 $(DESIGNS:%=synth-%): synth-%:
-	@mkdir -p build/$*
+	@mkdir -p build/$@
 	@echo "$*: synthesis, place and route …"
 	@$(GHDL) -a $(FLAGS) $($*_RTL)
-	@$(GHDL) --synth $(FLAGS) --out=verilog $($*_TOP) > build/$*.v
+	@$(GHDL) --synth $(FLAGS) --out=verilog $($*_TOP) > build/$*.v 2> build/$*.err || { cat build/$*.err; false; }
 	@$(YOSYS) -q -p "read_verilog build/$*.v; $(if $(filter windowed,$*),setattr -set rom_style \"block\" map_bank*/m:*;) \
 	    synth_ice40 -top $($*_TOP) -abc9 -device hx; \
 	    delete t:\$$scopeinfo; write_json build/$*.json"

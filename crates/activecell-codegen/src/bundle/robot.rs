@@ -1,0 +1,54 @@
+//! What the README says of the robot: what its program counts in, and what drives it.
+
+use super::Order;
+use crate::model::player::Scale;
+use activecell::control::State;
+use activecell::{Drive, Robot};
+
+/// The robot that the program is for, and how far it rolls.
+pub(super) fn robot(order: &Order<'_>) -> String {
+    let &Order { robot, map, .. } = order;
+    let scale = Scale::of(robot, map);
+    let whose =
+        if *robot == Robot::default() { "the default robot; `--robot FILE` takes yours" } else { "yours" };
+    let drive = match robot.drive {
+        Drive::Differential => "differential: two wheels, which turn the robot by rolling against each other",
+        Drive::Steered => "steered: wheels roll in runs only, a motor of its own turns them",
+    };
+    let of_turns = match robot.drive {
+        Drive::Differential => "ticks",
+        Drive::Steered => "pulse of the steering",
+    };
+    let rows = [
+        ("robot", whose.to_owned()),
+        ("drive", drive.to_owned()),
+        ("wheel perimeter", format!("{} m", robot.wheel_perimeter_m)),
+        ("encoder ticks in a revolution", format!("{}", robot.ticks_per_rev)),
+        ("between the wheels", format!("{} m", robot.track_m)),
+        ("a run to the next cell", format!("{:.4} m, {:.1} ticks", scale.step_m, scale.step_ticks)),
+        ("a turn to the next direction", format!("{}°, {:.1} {of_turns}", scale.turn_deg, scale.turn_ticks)),
+    ];
+    rows.map(|(what, value)| format!("| {what} | {value} |\n")).concat()
+}
+
+/// What the drive is told in each state of the control unit.
+pub(super) fn outputs() -> String {
+    let row = |state: State| {
+        let [q0, q1, q2, q3] = state.outputs().map(u8::from);
+        let [differential, steered] = motors(state);
+        format!("| {} | {q3}{q2}{q1}{q0} | {differential} | {steered} |\n", state.name())
+    };
+    State::ALL.map(row).concat()
+}
+
+/// What the motors do: those of a differential drive, those of a steered one.
+const fn motors(state: State) -> [&'static str; 2] {
+    match state {
+        State::Calm => ["off", "off"],
+        State::Forward => ["both forwards", "wheels straight, forwards"],
+        State::Left => ["left back, right forwards", "steering to the left"],
+        State::Right => ["left forwards, right back", "steering to the right"],
+        State::Reverse => ["both back", "wheels straight, back"],
+        State::Stopped => ["off, for one clock", "off, for one clock"],
+    }
+}
