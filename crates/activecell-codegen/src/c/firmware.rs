@@ -145,7 +145,7 @@ fn header(map: &Map, program: &Program<'_>, units: &Units) -> String {
         &[
             ("VERSION", env!("CARGO_PKG_VERSION")),
             ("LATTICE", cells_of(lattice)),
-            ("STACK", "512"),
+            ("STACK", "1024"),
             ("SIDE_MAX", &SIDE_MAX.to_string()),
             ("DEGREE", &degree.to_string()),
             ("DIRECTIONS", &directions),

@@ -70,7 +70,8 @@ fn headers_of_the_rule_alone_are_compiled_without_a_warning() {
     let headers: Vec<&str> = files.iter().filter_map(|file| file.path.strip_prefix("include/")).collect();
     assert_eq!(headers.len(), 6, "{headers:?}");
     for file in files.iter().filter(|file| file.path.starts_with("include/")) {
-        assert!(file.text.starts_with("/*\n * "), "{}: the first comment says what it is", file.path);
+        let text = file.text.split_once("\n").map_or("", |(_licence, text)| text);
+        assert!(text.starts_with("/*\n * "), "{}: the first comment says what it is", file.path);
     }
     let include = |names: &[&str]| {
         names.iter().map(|name| format!("#include \"{name}\"\n")).collect::<Vec<_>>().concat()
@@ -134,7 +135,7 @@ fn the_control_loop_arrives_past_an_obstacle_that_the_map_does_not_know() {
         let map = Map::random(lattice, 24, 20, 0.2, number as u64).unwrap();
         let folder = common::folder(&format!("robot_{number}"));
         let (from, to) = long_way(&map).unwrap();
-        let order = Order { map: &map, from, to, robot: &robot, fixed_map: false };
+        let order = Order { map: &map, from, to, robot: &robot, fixed_map: false, command: "" };
         common::write(&folder, &generate(Language::C, Some(&order)).unwrap().files);
         let (is_right, said) = example(&gcc, &folder, "robot", "-O2");
         let expected = if coarse { "NOT RUN" } else { "arrived after" };
@@ -143,6 +144,50 @@ fn the_control_loop_arrives_past_an_obstacle_that_the_map_does_not_know() {
     }
     assert!(surprised > 5);
     println!("8 floors: the control loop arrives, on {surprised} past an obstacle that it did not know of");
+}
+
+/// The Makefile and the README of a whole folder: warnings are errors if asked, other flags and changes build anew, what is
+/// missing is told; and the README's examples are C.
+#[test]
+fn make_builds_what_it_should() {
+    let Some([gcc, make]) = common::programs("make_builds", ["gcc", "make"]) else { return };
+    let map = warehouse(Lattice::Hex);
+    let (from, to) = long_way(&map).unwrap();
+    let order = Order { map: &map, from, to, robot: &Robot::default(), fixed_map: false, command: "" };
+    let folder = common::folder("make");
+    let files = generate(Language::C, Some(&order)).unwrap().files;
+    common::write(&folder, &files);
+    let making = |arguments: &[&str]| {
+        let output = common::command(&make, &folder).args(arguments).output().unwrap();
+        let [said, warned] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        (output.status.success(), format!("{said}{warned}"))
+    };
+    let compilations = |said: &str| said.matches(" -o build/").count();
+    for (arguments, expected) in [
+        (&["sim", "STRICT=1", "CC=gcc"][..], 2),
+        (&["sim", "STRICT=1", "CC=gcc"], 0),
+        (&["sim", "CC=gcc", "CFLAGS=-g -O1 -DMINE=1", "LDFLAGS=-Wl,-s"], 2),
+    ] {
+        let (is_right, said) = making(arguments);
+        assert!(is_right && said.contains("\nPASS") && said.contains("robot: arrived"), "{said}");
+        assert_eq!(compilations(&said), expected, "{said}");
+        assert_eq!(said.contains("-DMINE=1"), said.contains("-Wl,-s"));
+        assert_eq!(said.contains("-Werror"), expected == 2 && arguments.contains(&"STRICT=1"));
+    }
+    std::fs::write(folder.join("src/ac_map.c"), "not C\n").unwrap();
+    assert!(!making(&["sim"]).0, "a change builds anew");
+    let (is_right, said) = making(&["sim", "CC=no-such-compiler"]);
+    assert!(!is_right && said.contains("no-such-compiler was not found: install it"), "{said}");
+
+    let readme = &files.iter().find(|file| file.path == "README.md").unwrap().text;
+    let examples: Vec<&str> =
+        readme.split("```c\n").skip(1).map(|text| text.split("```").next().unwrap()).collect();
+    assert_eq!(examples.len(), 2);
+    for text in examples {
+        std::fs::write(folder.join("readme.c"), text).unwrap();
+        let flags = STRICT.iter().filter(|flag| **flag != "-Wmissing-prototypes");
+        common::run(common::command(&gcc, &folder).args(flags).args(["-c", "readme.c"]));
+    }
 }
 
 /// A robot that is there already, on a floor of one cell, and one that has ways shorter than a tick.
