@@ -12,7 +12,7 @@ const BORDER: i32 = 2;
 /// The images of 4 × 4 memories. Tiles of 2 × 2 cells go to the memories in turn, along rows and along columns, so 5 × 5
 /// cells never need two tiles of one memory.
 ///
-/// Columns and rows wrap; those that the map leaves free hold obstacles. Two of them are a border on both sides.
+/// Columns and rows wrap; those that the map leaves over hold obstacles. Two of them are a border on both sides.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Banks {
     /// There are 2^`x_bits` columns, at least 16.
@@ -20,8 +20,8 @@ pub struct Banks {
     /// There are 2^`y_bits` rows, at least 16.
     pub y_bits: u32,
     /// For each memory, row by row of the 16, its tiles in the order of their addresses: row by row of 8 cells, and in
-    /// each the columns of 8 cells. Bits 0 to 3 of a tile: upper left, upper right, lower left, lower right; 1 for an
-    /// obstacle.
+    /// each the columns of 8 cells. Bits 0 to 3 of a tile: upper left, upper right, lower left, lower right; 1 for a
+    /// free cell.
     pub images: Vec<Vec<u8>>,
 }
 
@@ -34,7 +34,7 @@ impl Banks {
     /// let banks = Banks::of(&Map::parse(Lattice::Square, "..\n.#")?)?;
     /// assert_eq!((banks.x_bits, banks.y_bits), (4, 4));
     /// // Cell (0, 0) is the first of its tile, in the memory of column 1 and row 1.
-    /// assert_eq!(banks.images[5][0], 0b1000);
+    /// assert_eq!(banks.images[5][0], 0b0111);
     /// # Ok::<(), activecell::Error>(())
     /// ```
     ///
@@ -42,12 +42,12 @@ impl Banks {
     /// [`Error::MapTooLarge`] if these are more than [`MOST_STORED`] cells.
     pub fn of(map: &Map) -> Result<Self, Error> {
         let [x_bits, y_bits] = Self::bits(map)?;
-        let mut images = vec![vec![15; Self::tiles(map)?]; 16];
+        let mut images = vec![vec![0; Self::tiles(map)?]; 16];
         for cell in map.free() {
             let wrapped = |at: i32, bits: u32| (at + BORDER) as usize & ((1 << bits) - 1);
             let (x, y) = (wrapped(cell.x, x_bits), wrapped(cell.y, y_bits));
             let (bank, address) = (y / 2 % 4 * 4 + x / 2 % 4, ((y / 8) << (x_bits - 3)) + x / 8);
-            images[bank][address] &= !(1 << (y % 2 * 2 + x % 2));
+            images[bank][address] |= 1 << (y % 2 * 2 + x % 2);
         }
         Ok(Self { x_bits, y_bits, images })
     }

@@ -3,7 +3,7 @@
 use crate::SourceFile;
 use crate::model::player::{Motion, OBSTACLES, Segment};
 use crate::model::player_trace::{Stretch, Trace, trace};
-use activecell::Error;
+use activecell::{Drive, Error};
 
 /// Segments that a player's numbers of 16 bits can count.
 const SEGMENTS_MAX: usize = u16::MAX as usize;
@@ -16,7 +16,8 @@ pub(crate) struct ProgramImage {
     pub(crate) segment_bits: u32,
     /// Bits of the ticks.
     pub(crate) tick_bits: u32,
-    /// A word a segment and one for the end, each with what it means: from the top bit the end, the motion, the ticks.
+    /// A word a segment and one for the end, each with what it means: from the top bit 1 for a segment, the motion, the
+    /// ticks. The end is 0, so that a memory without its program never drives.
     pub(crate) words: Vec<(u64, String)>,
 }
 
@@ -50,9 +51,9 @@ impl ProgramImage {
         let word = |segment: &Segment| {
             let motion = Motion::ALL.iter().position(|&motion| motion == segment.motion).unwrap_or(0) as u64;
             let about = format!("{}, {} ticks", segment.motion.name(), segment.ticks);
-            (motion << tick_bits | u64::from(segment.ticks), about)
+            (1 << (tick_bits + 2) | motion << tick_bits | u64::from(segment.ticks), about)
         };
-        let end = (1 << (tick_bits + 2), "the end".into());
+        let end = (0, "the end".into());
         Ok(Self {
             segments: segments.len(),
             segment_bits: bits(segments.len() as u32),
@@ -61,7 +62,7 @@ impl ProgramImage {
         })
     }
 
-    /// Bits of a word: the end and the motion stand above the ticks.
+    /// Bits of a word: what it is and the motion stand above the ticks.
     pub(crate) const fn word_bits(&self) -> u32 {
         self.tick_bits + 3
     }
@@ -99,9 +100,9 @@ pub(crate) struct PlayerBench {
 }
 
 impl PlayerBench {
-    /// For a program.
-    pub(crate) fn of(segments: &[Segment]) -> Self {
-        let Trace { ticks_max, stretches } = trace(segments, 1);
+    /// For a program and its robot.
+    pub(crate) fn of(segments: &[Segment], drive: Drive) -> Self {
+        let Trace { ticks_max, stretches } = trace(segments, drive, 1);
         let about = match ticks_max {
             0 => "every segment lasts all its ticks".to_owned(),
             most => format!("the simulation shortens segments to {most} ticks"),
@@ -111,12 +112,12 @@ impl PlayerBench {
     }
 }
 
-/// 16 digits: clocks, segment, done, q3 to q0, then go, tick and the obstacles.
+/// 12 digits: clocks, done, q3 to q0, then go, the encoders that change, and the obstacles.
 fn line(stretch: &Stretch) -> String {
-    let q = stretch.state.outputs().iter().rev().fold(0, |q, &output| q << 1 | u8::from(output));
-    let senses = stretch.senses;
-    let told =
-        u8::from(senses.go) << 5 | u8::from(senses.tick) << 4 | (senses.obstacles.0 & OBSTACLES.0) >> 2;
-    let (clocks, segment, done) = (stretch.clocks, stretch.segment, u8::from(stretch.done));
-    format!("{clocks:08x}_{segment:04x}_{done:x}_{q:x}_{told:02x}\n")
+    let bits = |bits: &[bool]| bits.iter().rev().fold(0, |number, &bit| number << 1 | u8::from(bit));
+    let [left, right, steering] = stretch.pulses;
+    let told = bits(&[left, right, steering, stretch.go]);
+    let obstacles = (stretch.obstacles.0 & OBSTACLES.0) >> 2;
+    let (clocks, done, q) = (stretch.clocks, u8::from(stretch.done), bits(&stretch.state.outputs()));
+    format!("{clocks:08x}_{done:x}_{q:x}_{told:x}{obstacles:x}\n")
 }

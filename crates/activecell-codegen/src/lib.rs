@@ -19,6 +19,7 @@ pub(crate) mod colours;
 mod images;
 pub mod logic;
 pub mod model;
+mod motors;
 mod navigator;
 mod source;
 mod template;

@@ -2,12 +2,14 @@
 
 mod common;
 
-use activecell::control::Inputs;
+use activecell::control::{Inputs, State};
 use activecell::{Cell, Dir, Drive, Lattice, Map, Rng, Robot, Rule};
 use activecell_codegen::model::player::{Motion, Player, Segment, Senses, segments};
+use activecell_codegen::model::player_top::{Pins, PlayerTop};
 use activecell_codegen::{SourceFile, verilog};
 use common::cxxrtl::Simulation;
 use common::formal;
+use std::path::{Path, PathBuf};
 
 /// A program of a random route over a random map of either lattice, for a random robot.
 fn program(rng: &mut Rng) -> Vec<Segment> {
@@ -79,11 +81,12 @@ int main() {
 }
 ";
 
-/// A program as the simulation reads it: ticks of 8 bits, the motion above them, the end above that.
+/// A program as the simulation reads it: ticks of 8 bits, the motion above them, 1 above that; 0 is the end.
 fn told(segments: &[Segment], senses: &[Senses]) -> Vec<u8> {
     let number =
         |motion: Motion| Motion::ALL.iter().position(|&other| other == motion).expect("a motion") as u32;
-    let words = segments.iter().map(|segment| number(segment.motion) << 8 | segment.ticks).chain([1 << 10]);
+    let words =
+        segments.iter().map(|segment| 1 << 10 | number(segment.motion) << 8 | segment.ticks).chain([0]);
     let mut bytes = vec![segments.len() as u8 + 1];
     bytes.extend(words.flat_map(|word| (word as u16).to_le_bytes()));
     bytes.extend((senses.len() as u16).to_le_bytes());
@@ -96,9 +99,13 @@ fn told(segments: &[Segment], senses: &[Senses]) -> Vec<u8> {
 }
 
 fn shown(player: &Player) -> [u8; 2] {
-    let outputs = player.state().outputs();
-    let q = outputs.iter().enumerate().map(|(place, &output)| u8::from(output) << place).sum::<u8>();
-    [q | u8::from(player.done()) << 4, player.segment() as u8]
+    [on_pins((player.state(), player.done())), player.segment() as u8]
+}
+
+/// q0 to q3, and done above them.
+fn on_pins((state, done): (State, bool)) -> u8 {
+    let outputs = state.outputs().into_iter().chain([done]);
+    outputs.enumerate().map(|(place, output)| u8::from(output) << place).sum()
 }
 
 #[test]
@@ -109,7 +116,7 @@ fn verilog_plays_as_the_model_clock_by_clock() {
     let folder = common::folder("player_cxxrtl");
     // The widest that any of the programs needs.
     let widest = Segment { motion: Motion::Forward, ticks: 255 };
-    common::write(&folder, &verilog::player(&[widest; 64]).unwrap());
+    common::write(&folder, &verilog::player(&[widest; 64], Drive::Differential).unwrap());
     let script = format!("read_verilog {SOURCES}; hierarchy -check -top player; flatten");
     let simulation = Simulation::compile(&tools, &folder, &script, MAIN);
     let mut rng = Rng::new(1);
@@ -137,16 +144,18 @@ fn verilog_plays_as_the_model_clock_by_clock() {
     println!("600 programs, {ended} to their end, {clocks} clocks: the Verilog shows what the model shows");
 }
 
-/// What the chip's pins show, a clock after another, for what they are told: go, reset and the encoders in the upper bits.
+/// What the chip's pins show, a clock after another, for what they are told: two bytes a clock.
 const TOP: &str = r"
 int main() {
     cxxrtl_design::p_player__top top;
     for (int told = std::getchar(); told != EOF; told = std::getchar()) {
+        top.p_obstacles.set<uint32_t>(told & 15);
         top.p_reset.set<bool>(told >> 7 & 1);
         top.p_go.set<bool>(told >> 6 & 1);
-        top.p_steering.set<bool>(told >> 5 & 1);
-        top.p_wheel.set<bool>(told >> 4 & 1);
-        top.p_obstacles.set<uint32_t>(told & 15);
+        int encoders = std::getchar();
+        top.p_wheel__left.set<bool>(encoders & 1);
+        top.p_wheel__right.set<bool>(encoders >> 1 & 1);
+        top.p_steering.set<bool>(encoders >> 2 & 1);
         top.p_clk.set<bool>(true);
         top.step();
         top.p_clk.set<bool>(false);
@@ -157,46 +166,65 @@ int main() {
 }
 ";
 
-/// The pins are seen two clocks later, a pulse by its rising edge; in turns that of the steering.
+/// Pulses and pauses of random length on all encoders, stops, obstacles, and now and then a reset.
+fn trains(rng: &mut Rng) -> Vec<Pins> {
+    let mut encoders = [false; 3];
+    let mut reset_clocks = 4;
+    let mut pins = |_| {
+        for level in &mut encoders {
+            *level ^= rng.below(5) == 0;
+        }
+        if reset_clocks == 0 && rng.below(10_000) == 0 {
+            reset_clocks = 1 + rng.below(6);
+        }
+        let reset = reset_clocks > 0;
+        reset_clocks = reset_clocks.saturating_sub(1);
+        let Senses { go, obstacles, .. } = senses(rng);
+        Pins { reset, go, encoders, obstacles }
+    };
+    (0..40_000).map(&mut pins).collect()
+}
+
+/// For both kinds of robots, every clock from the first reset on.
 #[test]
-fn raw_pulses_are_ticks_at_their_rising_edges() {
-    let Some(tools) = common::programs("raw_pulses_are_ticks_at_their_rising_edges", ["yosys", "g++"]) else {
+fn the_pins_show_what_the_model_shows() {
+    let Some(tools) = common::programs("the_pins_show_what_the_model_shows", ["yosys", "g++"]) else {
         return;
     };
     let mut rng = Rng::new(3);
-    let segments = [Motion::Forward, Motion::Left, Motion::Reverse, Motion::Right, Motion::Forward]
-        .map(|motion| Segment { motion, ticks: 1 + rng.below(600) });
-    let folder = common::folder("player_top_cxxrtl");
-    common::write(&folder, &verilog::player(&segments).unwrap());
-    let script =
-        format!("read_verilog {SOURCES} rtl/player_top.v; hierarchy -check -top player_top; flatten");
-    let simulation = Simulation::compile(&tools, &folder, &script, TOP);
-    let mut pulses = [0; 2];
-    let mut told: Vec<u8> = vec![1 << 7; 4];
-    told.extend((0..40_000).map(|_| {
-        // Pulses and pauses of random length.
-        for pulse in &mut pulses {
-            *pulse ^= u8::from(rng.below(5) == 0);
-        }
-        let senses = senses(&mut rng);
-        u8::from(senses.go) << 6 | pulses[1] << 5 | pulses[0] << 4 | senses.obstacles.0 >> 2
-    }));
-    let mut player = Player::new(segments.to_vec());
-    let expected = (3..told.len()).map(|clock| {
-        let (seen, before) = (told[clock - 2], told[clock - 3]);
-        let turning = matches!(player.wanted(), Some(Motion::Left | Motion::Right));
-        let pulse = if turning { 1 << 5 } else { 1 << 4 };
-        // A pulse that was there at reset is none.
-        let tick = seen & !before & pulse != 0 && clock > 5;
-        if clock > 5 {
-            player.clock(Senses { go: seen >> 6 & 1 == 1, tick, obstacles: Inputs((seen & 15) << 2) });
-        }
-        shown(&player)[0]
-    });
-    let expected: Vec<u8> = expected.collect();
-    assert_eq!(simulation.run(&told)[3..], expected);
-    assert!(player.done());
-    println!("{} clocks of raw pulses: the pins show what the model shows", told.len());
+    for drive in [Drive::Differential, Drive::Steered] {
+        let segments = [Motion::Forward, Motion::Left, Motion::Reverse, Motion::Right, Motion::Forward]
+            .map(|motion| Segment { motion, ticks: 1 + rng.below(400) });
+        let folder = common::folder("player_top_cxxrtl");
+        common::write(&folder, &verilog::player(&segments, drive).unwrap());
+        let script =
+            format!("read_verilog {SOURCES} rtl/player_top.v; hierarchy -check -top player_top; flatten");
+        let simulation = Simulation::compile(&tools, &folder, &script, TOP);
+        let pins = trains(&mut rng);
+        let told = pins.iter().flat_map(|pins| {
+            let encoders = (0..3).map(|place| u8::from(pins.encoders[place]) << place).sum();
+            [u8::from(pins.reset) << 7 | u8::from(pins.go) << 6 | pins.obstacles.0 >> 2, encoders]
+        });
+        let mut top = PlayerTop::new(segments.to_vec(), drive);
+        let (mut ended, mut resets) = (0, 0);
+        let expected = pins.iter().map(|&pins| {
+            let was_done = top.player().done();
+            top.clock(pins);
+            ended += usize::from(!was_done && top.player().done());
+            resets += usize::from(was_done && !top.player().done());
+            on_pins(top.shown())
+        });
+        let expected: Vec<u8> = expected.collect();
+        let shown = simulation.run(&told.collect::<Vec<u8>>());
+        let wrong = shown.iter().zip(&expected).skip(3).position(|(shown, expected)| shown != expected);
+        assert_eq!(wrong, None, "the first clock that differs, {drive:?}");
+        assert_eq!(shown.len(), expected.len());
+        assert!(ended > 1 && resets > 0, "{ended} {resets}");
+        println!(
+            "{drive:?}: {} clocks of raw pulses, {ended} ends: the pins show what the model shows",
+            pins.len()
+        );
+    }
 }
 
 /// For every program of seven segments (the memory holds anything) and all inputs; wrong players are found out.
@@ -210,13 +238,15 @@ fn it_never_drives_at_obstacles_nor_after_the_end() {
         ("rtl/player_inputs.v", "wire left = ~obstacles[1] &", "wire left ="),
         ("rtl/player.v", ".done(done), .go", ".done(1'b0), .go"),
         ("rtl/player.v", "tick & ~done & count == ticks", "tick & count == ticks"),
-        ("rtl/control_unit.v", "reset ? 3'd0 : next_state", "next_state"),
+        ("rtl/control_unit.v", "state <= reset ? 3'd0 : next_state", "state <= next_state"),
         ("rtl/control_next.v", "wire next0 = ", "wire next0 = from_stopped | "),
     ];
     let whole = ("rtl/player.v", "", "");
     for (place, (path, right, wrong)) in [whole].into_iter().chain(mutants).enumerate() {
         let folder = common::folder(&format!("player_formal_{place}"));
-        let mut files = verilog::player(&[Segment { motion: Motion::Forward, ticks: 7 }; 7]).unwrap();
+        let mut files =
+            verilog::player(&[Segment { motion: Motion::Forward, ticks: 7 }; 7], Drive::Differential)
+                .unwrap();
         for file in &mut files {
             if file.path == "rtl/player.hex" {
                 file.text = "xx\n".repeat(8);
@@ -246,16 +276,46 @@ fn must_end(files: &mut [SourceFile]) {
     assert!(bench.text.contains(end));
     bench.text = bench.text.replace(
         end,
-        &format!("        if (done && q == 4'b0001) $display(\"ended after %0d segments\", segment);\n{end}"),
+        &format!("        if (done && q == 4'b0001) $display(\"ended after %0d segments\", dut.player.segment);\n{end}"),
     );
+}
+
+/// What a test bench of the files in the folder prints.
+fn simulated([iverilog, vvp]: &[PathBuf; 2], folder: &Path, bench: &str) -> String {
+    let mut compile = common::command(iverilog, folder);
+    compile.args(["-g2005", "-Wall", "-Wno-timescale", "-o", "bench", "-s", bench]);
+    compile.args([&format!("tb/{bench}.v"), "rtl/player_top.v"]).args(SOURCES.split(' '));
+    let warnings = compile.output().expect("a program that was found can be run");
+    assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
+    common::run(common::command(vvp, folder).args(["-n", "bench"]))
+}
+
+/// The example drives every segment for all its ticks; without its program it moves not at all.
+#[test]
+fn the_example_drives_its_program() {
+    let Some(tools) = common::programs("the_example_drives_its_program", ["iverilog", "vvp"]) else { return };
+    let mut rng = Rng::new(4);
+    let folder = common::folder("player_example");
+    for drive in [Drive::Differential, Drive::Steered] {
+        for case in 0..4 {
+            let segments = if case == 0 { Vec::new() } else { program(&mut rng) };
+            common::write(&folder, &verilog::player(&segments, drive).unwrap());
+            let said = simulated(&tools, &folder, "player_example_tb");
+            let ticks: u32 = segments.iter().map(|segment| segment.ticks).sum();
+            let end = format!("PASS example: the program has ended after {ticks} ticks");
+            assert!(said.contains(&end), "{segments:?} {said}");
+            std::fs::remove_file(folder.join("rtl/player.hex")).unwrap();
+            let said = simulated(&tools, &folder, "player_example_tb");
+            assert!(said.contains("FAIL example: the outputs are unknown"), "{said}");
+        }
+    }
+    println!("8 programs: the example ends after all their ticks, and tells of a program that is not there");
 }
 
 /// The test bench as it is shipped passes, and fails if what it expects is wrong.
 #[test]
 fn the_test_bench_passes_and_finds_faults() {
-    let Some([iverilog, vvp]) =
-        common::programs("the_test_bench_passes_and_finds_faults", ["iverilog", "vvp"])
-    else {
+    let Some(tools) = common::programs("the_test_bench_passes_and_finds_faults", ["iverilog", "vvp"]) else {
         return;
     };
     let mut rng = Rng::new(2);
@@ -268,7 +328,8 @@ fn the_test_bench_passes_and_finds_faults() {
             3 => Motion::ALL.repeat(3).into_iter().map(|motion| Segment { motion, ticks: LONG }).collect(),
             _ => program(&mut rng),
         };
-        let mut files = verilog::player(&segments).unwrap();
+        let drive = [Drive::Differential, Drive::Steered][case / 3 % 2];
+        let mut files = verilog::player(&segments, drive).unwrap();
         if case == 3 {
             must_end(&mut files);
         }
@@ -279,20 +340,7 @@ fn the_test_bench_passes_and_finds_faults() {
             trace.text.replace_range(place..=place, "2");
         }
         common::write(&folder, &files);
-        let mut compile = common::command(&iverilog, &folder);
-        compile.args([
-            "-g2005",
-            "-Wall",
-            "-o",
-            "bench",
-            "-s",
-            "player_tb",
-            "tb/player_tb.v",
-            "rtl/player_top.v",
-        ]);
-        let warnings = compile.args(SOURCES.split(' ')).output().unwrap();
-        assert!(warnings.status.success() && warnings.stderr.is_empty(), "{warnings:?}");
-        let said = common::run(common::command(&vvp, &folder).arg("bench"));
+        let said = simulated(&tools, &folder, "player_tb");
         assert_eq!(said.contains("FAIL player"), is_wrong, "{said}");
         assert_eq!(said.contains("ended after 12 segments"), case == 3, "{said}");
         assert_eq!(said.contains("PASS player"), !is_wrong, "{said}");

@@ -2,7 +2,7 @@
 
 mod common;
 
-use activecell::{Lattice, Map, Rng};
+use activecell::{Drive, Lattice, Map, Rng};
 use activecell_codegen::logic::Circuit;
 use activecell_codegen::model::player::{Motion, Segment};
 use activecell_codegen::{Language, SourceFile, circuits, generate, verilog, vhdl};
@@ -88,8 +88,8 @@ fn sources(files: &[SourceFile]) -> impl Iterator<Item = &str> {
     files.iter().map(|file| file.path.as_str()).filter(|path| path.ends_with("vhd"))
 }
 
-/// Whether a test bench passes under GHDL.
-fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool {
+/// What a test bench says under GHDL, which has nothing to say of the files.
+fn runs(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> String {
     common::write(folder, files);
     let steps: [Vec<&str>; 2] = [
         ["-a", "--std=93"].into_iter().chain(sources(files)).collect(),
@@ -100,6 +100,12 @@ fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool
         [output.stdout, output.stderr].map(|said| String::from_utf8_lossy(&said).into_owned()).concat()
     });
     assert_eq!(analysed, "", "warnings");
+    said
+}
+
+/// Whether a test bench passes under GHDL.
+fn passes(ghdl: &Path, folder: &Path, files: &[SourceFile], bench: &str) -> bool {
+    let said = runs(ghdl, folder, files, bench);
     let [passed, failed] = ["PASS ", "FAIL "].map(|word| said.contains(word));
     assert!(passed != failed, "{said}");
     assert!(failed || said.lines().count() == 1, "warnings: {said}");
@@ -121,12 +127,15 @@ fn the_players_test_bench_passes_and_finds_faults() {
             ticks: 1 + rng.below(longest),
         };
         let segments: Vec<Segment> = (0..case * case).map(|_| segment(&mut rng)).collect();
-        let mut files = vhdl::player(&segments).unwrap();
+        let drive = [Drive::Differential, Drive::Steered][case % 2];
+        let mut files = vhdl::player(&segments, drive).unwrap();
         assert!(passes(&ghdl, &folder, &files, "player_tb"));
+        if case < 5 {
+            assert!(runs(&ghdl, &folder, &files, "player_example_tb").contains("PASS example"));
+        }
         let trace = files.last_mut().unwrap();
-        // Behind the last segment: the number of it, done, calm.
-        let end = format!("_{:04x}_1_1_", segments.len());
-        assert!(trace.text.lines().last().unwrap().contains(&end), "{}", trace.text);
+        // Behind the last segment: done, calm.
+        assert!(trace.text.lines().last().unwrap().contains("_1_1_"), "{}", trace.text);
         let place = trace.text.len() - 5; // q3 to q0 of the last line
         trace.text.replace_range(place..=place, "2");
         assert!(!passes(&ghdl, &folder, &files, "player_tb"));
@@ -145,6 +154,9 @@ fn the_windowed_navigators_test_bench_passes_and_finds_faults() {
             let map = Map::random(lattice, width, height, 0.15, seed).unwrap();
             let mut files = vhdl::windowed(&map).unwrap();
             assert!(passes(&ghdl, &folder, &files, "windowed_tb"), "{lattice} {width} x {height}");
+            let mut example = common::command(&ghdl, &folder);
+            example.args(["--elab-run", "--std=93", "windowed_example_tb", "--ieee-asserts=disable-at-0"]);
+            common::check_example(&map, &common::run(&mut example));
             let trace = files.last_mut().unwrap();
             let place = trace.text.len() - 4; // the step of the last line, which is none
             trace.text.replace_range(place..=place, "1");
@@ -201,7 +213,7 @@ fn maps_of_every_size_become_block_ram() {
         synth.args(["--synth", "--std=93", "--out=verilog"]).args(sources).args(["-e", "map_window"]);
         std::fs::write(folder.join("netlist.v"), common::run(&mut synth)).expect("the folder can be written");
         let script = format!(
-            "read_verilog netlist.v; {told}; proc; opt_clean; memory -nomap; \
+            "read_verilog netlist.v; {told}; proc; opt; memory -nomap; \
              memory_libmap -lib +/ice40/brams.txt; select -assert-count 16 t:$__ICE40_RAM4K_"
         );
         common::yosys(&yosys, &folder, &script);
@@ -214,7 +226,7 @@ fn every_navigator_becomes_gates() {
     let Some(tools) = common::programs("every_navigator_becomes_gates", ["ghdl", "yosys"]) else { return };
     let folder = common::folder("vhdl_gates");
     let segments = [Motion::Forward, Motion::Left].map(|motion| Segment { motion, ticks: 100 });
-    becomes_gates(&tools, &folder, &vhdl::player(&segments).unwrap(), "player_top");
+    becomes_gates(&tools, &folder, &vhdl::player(&segments, Drive::Steered).unwrap(), "player_top");
     for lattice in Lattice::ALL {
         let map = Map::random(lattice, 30, 16, 0.2, 1).unwrap();
         becomes_gates(&tools, &folder, &vhdl::windowed(&map).unwrap(), &format!("windowed_{lattice}"));

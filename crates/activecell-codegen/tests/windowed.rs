@@ -5,15 +5,17 @@
 mod common;
 
 use activecell::{Cell, Lattice, Map, Outcome, Rng, Rule};
-use activecell_codegen::model::{Shown, Status, Windowed};
-use activecell_codegen::{Banks, verilog};
+use activecell_codegen::model::{Shown, Status, Windowed, WindowedInputs};
+use activecell_codegen::{Banks, SourceFile, verilog};
 use activecell_formats::files::{ReadOptions, read_map};
 use common::cxxrtl::Simulation;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 type Task = (Cell, Cell);
-/// What is loaded with a clock's edge, and what is shown before it.
-type Clock = (Option<Task>, Shown);
+/// What is given with a clock's edge, and what is shown before it.
+type Clock = (WindowedInputs, Shown);
+
+const STEP: WindowedInputs = WindowedInputs { enable: true, reset: false, begin: None };
 
 /// Two free cells.
 fn task(map: &Map, rng: &mut Rng) -> Option<Task> {
@@ -22,23 +24,53 @@ fn task(map: &Map, rng: &mut Rng) -> Option<Task> {
     Some((cell()?, cell()?))
 }
 
-/// The tasks as the model runs them, one after the other; every third is cut off, if it lasts as long.
-fn trace(map: &Map, tasks: &[Task]) -> Vec<Clock> {
+/// So many tasks; every fifth leads to any two numbers that the ports can hold.
+fn tasks(map: &Map, count: usize, rng: &mut Rng) -> Vec<Task> {
+    let mut given: Vec<Task> = (0..count).filter_map(|_| task(map, rng)).collect();
+    for (_, target) in given.iter_mut().skip(4).step_by(5) {
+        let number = |size: u32| rng.below(size.next_power_of_two().max(2)) as i32;
+        let [x, y] = [map.width(), map.height()].map(number);
+        *target = Cell::new(x, y);
+    }
+    given
+}
+
+/// A task as the model runs it, a step a clock.
+fn trace(map: &Map, task: Task) -> Vec<Clock> {
     let mut navigator = Windowed::new(map);
     let mut clocks = Vec::new();
-    let mut clock = |load| {
-        clocks.push((load, navigator.shown()));
-        navigator.clock(load);
+    let mut clock = |inputs| {
+        clocks.push((inputs, navigator.shown()));
+        navigator.clock(inputs);
         navigator.shown().status == Status::Busy
     };
-    clock(None);
+    clock(STEP);
+    clock(WindowedInputs { begin: Some(task), ..STEP });
+    while clock(STEP) {}
+    clock(STEP);
+    clocks
+}
+
+/// The tasks as the model runs them, one after the other, with pauses: every second makes a step at random clocks, every third
+/// is cut off, if it lasts as long, half of these by a reset.
+fn rough_trace(map: &Map, tasks: &[Task], rng: &mut Rng) -> Vec<Clock> {
+    let mut navigator = Windowed::new(map);
+    let mut clocks = Vec::new();
+    let mut clock = |inputs| {
+        clocks.push((inputs, navigator.shown()));
+        navigator.clock(inputs);
+        navigator.shown().status == Status::Busy
+    };
+    clock(STEP);
     for (i, &task) in tasks.iter().enumerate() {
-        clock(Some(task));
+        let pause = [1, 3][i % 2];
+        let mut enable = || rng.below(pause) == 0;
+        clock(WindowedInputs { begin: Some(task), enable: enable(), reset: i % 12 == 11 });
         let longest = if i % 3 == 2 { 7 } else { usize::MAX };
-        (0..longest).find(|_| !clock(None));
-        clock(None);
+        (0..longest).find(|_| !clock(WindowedInputs { enable: enable(), ..STEP }));
+        clock(WindowedInputs { enable: enable(), reset: i % 6 == 5, begin: None });
     }
-    clock(None);
+    clock(STEP);
     clocks
 }
 
@@ -68,12 +100,12 @@ fn compare(simulation: &Simulation, map: &Map, clocks: &[Clock]) {
     input.extend(Banks::of(map).unwrap().images.concat());
     let numbers = |cell: Cell| [cell.x, cell.y].map(|at| (at as u16).to_le_bytes()).concat();
     let mut expected = Vec::new();
-    for (load, shown) in clocks {
-        let (start, target) = load.unwrap_or_default();
-        input.push(load.is_some().into());
+    for (WindowedInputs { reset, enable, begin }, shown) in clocks {
+        let (start, target) = begin.unwrap_or_default();
+        input.push(u8::from(*reset) << 2 | u8::from(*enable) << 1 | u8::from(begin.is_some()));
         input.extend([numbers(start), numbers(target)].concat());
-        let go = shown.go.map_or(0, |dir| 1 << dir.0);
-        expected.push([numbers(shown.cell), vec![go, shown.status.outputs()]].concat());
+        let direction = shown.direction.map_or(0, |dir| 1 << dir.0);
+        expected.push([numbers(shown.cell), vec![direction, shown.status.outputs()]].concat());
     }
     // The last clock's edge is seen by none.
     let output = simulation.run(&input);
@@ -87,7 +119,7 @@ fn compare(simulation: &Simulation, map: &Map, clocks: &[Clock]) {
 fn verilog_shows_what_the_model_shows_on_random_maps() {
     let test = "verilog_shows_what_the_model_shows_on_random_maps";
     let Some(tools) = common::programs(test, ["yosys", "g++"]) else { return };
-    let (mut maps, mut tasks, mut clocks) = (0, 0, 0);
+    let (mut maps, mut all, mut clocks) = (0, 0, 0);
     for lattice in Lattice::ALL {
         for (width, height) in [(5, 3), (37, 23), (16, 31), (64, 63)] {
             let map = |seed: u64| {
@@ -97,14 +129,14 @@ fn verilog_shows_what_the_model_shows_on_random_maps() {
             let simulation = compile(&tools, &map(1));
             for seed in 0..26 {
                 let (map, mut rng) = (map(seed), Rng::new(seed));
-                let given: Vec<Task> = (0..6).filter_map(|_| task(&map, &mut rng)).collect();
-                let trace = trace(&map, &given);
+                let given = tasks(&map, 6, &mut rng);
+                let trace = rough_trace(&map, &given, &mut rng);
                 compare(&simulation, &map, &trace);
-                (maps, tasks, clocks) = (maps + 1, tasks + given.len(), clocks + trace.len());
+                (maps, all, clocks) = (maps + 1, all + given.len(), clocks + trace.len());
             }
         }
     }
-    println!("{maps} random maps, {tasks} tasks, {clocks} clocks: the Verilog shows what the model shows");
+    println!("{maps} random maps, {all} tasks, {clocks} clocks: the Verilog shows what the model shows");
 }
 
 #[test]
@@ -123,8 +155,8 @@ fn verilog_shows_what_the_model_shows_on_real_maps() {
         let (map, _) = read_map(&path, &ReadOptions::default()).unwrap();
         let map = map.on(lattice);
         let mut rng = Rng::new(1);
-        let tasks: Vec<Task> = (0..100).filter_map(|_| task(&map, &mut rng)).collect();
-        let trace = trace(&map, &tasks);
+        let tasks = tasks(&map, 100, &mut rng);
+        let trace = rough_trace(&map, &tasks, &mut rng);
         compare(&compile(&tools, &map), &map, &trace);
         println!("{name} on {lattice}: {} tasks, {} clocks as the model", tasks.len(), trace.len());
     }
@@ -141,7 +173,7 @@ fn the_model_follows_the_published_rule() {
         let size = 3 + rng.below(40);
         let map = Map::random(lattice, size, 1 + rng.below(40), rng.unit() / 2.0, seed).unwrap();
         let Some((from, to)) = task(&map, &mut rng) else { continue };
-        let clocks = trace(&map, &[(from, to)]);
+        let clocks = trace(&map, (from, to));
         let cells: Vec<Cell> = clocks[3..].iter().map(|(_, shown)| shown.cell).collect();
         let last = clocks.last().unwrap().1;
         let route = map.route(Rule::Published, from, to, 0).unwrap();
@@ -150,7 +182,7 @@ fn the_model_follows_the_published_rule() {
         let ended = [Status::Arrived, Status::Enclosed, Status::Trapped].map(|status| status == last.status);
         let expected = [Outcome::Arrived, Outcome::Enclosed, Outcome::Trapped];
         assert_eq!(ended, expected.map(|outcome| outcome == route.outcome()), "{lattice} seed {seed}");
-        let moves = clocks.iter().filter(|(_, shown)| shown.go.is_some()).count();
+        let moves = clocks.iter().filter(|(_, shown)| shown.direction.is_some()).count();
         if last.status == Status::Trapped {
             let cycle = route.cycle();
             assert!(cells[steps..].iter().all(|cell| cycle.contains(cell)));
@@ -168,6 +200,28 @@ fn the_model_follows_the_published_rule() {
         "arrived {}, enclosed {}, trapped {}: the model's routes are the core's",
         outcomes[0], outcomes[1], outcomes[2]
     );
+}
+
+/// Targets on obstacles, beside the robot or far from it, and outside the map: the task ends, and not at the target.
+#[test]
+fn tasks_without_a_way_end() {
+    let mut ended = 0;
+    for seed in 0..300 {
+        let lattice = Lattice::ALL[seed as usize % 2];
+        let map = Map::random(lattice, 20, 9, 0.3, seed).unwrap();
+        let mut rng = Rng::new(seed);
+        for _ in 0..10 {
+            let target = Cell::new(rng.below(32) as i32, rng.below(16) as i32);
+            let Some((start, _)) = task(&map, &mut rng).filter(|_| !map.is_free(target)) else { continue };
+            let status = trace(&map, (start, target)).last().unwrap().1.status;
+            assert!(
+                [Status::Trapped, Status::Enclosed].contains(&status),
+                "{lattice} seed {seed}: {status:?}"
+            );
+            ended += 1;
+        }
+    }
+    println!("{ended} tasks to obstacles and beyond the map: each ends trapped or enclosed");
 }
 
 #[test]
@@ -210,11 +264,21 @@ fn windows_are_the_cells_of_the_map() {
     }
 }
 
-/// The bench that is delivered passes, and finds a wrong line of its file.
+/// Runs a bench of a folder; what it prints.
+fn simulated([iverilog, vvp]: &[PathBuf; 2], folder: &Path, files: &[SourceFile], bench: &str) -> String {
+    common::write(folder, files);
+    let sources = files.iter().map(|file| &file.path).filter(|path| !path.ends_with("hex"));
+    let mut compile = common::command(iverilog, folder);
+    compile.args(["-g2005", "-Wall", "-Wno-timescale", "-s", bench, "-o", "bench.vvp"]).args(sources);
+    let output = compile.output().expect("iverilog was found");
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "", "warnings");
+    common::run(common::command(vvp, folder).args(["-n", "bench.vvp"]))
+}
+
+/// The bench that is delivered passes, and finds a wrong line of its file; the example goes where the rule goes.
 #[test]
 fn test_benches_pass_and_find_faults() {
-    let Some([iverilog, vvp]) = common::programs("test_benches_pass_and_find_faults", ["iverilog", "vvp"])
-    else {
+    let Some(tools) = common::programs("test_benches_pass_and_find_faults", ["iverilog", "vvp"]) else {
         return;
     };
     for (i, (width, height)) in [(20, 13), (64, 64), (1, 1), (33, 70)].into_iter().enumerate() {
@@ -222,20 +286,16 @@ fn test_benches_pass_and_find_faults() {
             let map = Map::random(lattice, width, height, 0.2, i as u64).unwrap();
             let folder = common::folder(&format!("bench_{lattice}_{width}x{height}"));
             let mut files = verilog::windowed(&map).unwrap();
-            common::write(&folder, &files);
-            let sources = files.iter().map(|file| &file.path).filter(|path| !path.ends_with("hex"));
-            let mut compile = common::command(&iverilog, &folder);
-            common::run(compile.args(["-g2005", "-o", "bench.vvp"]).args(sources));
-            let told = common::run(common::command(&vvp, &folder).args(["-n", "bench.vvp"]));
+            let told = simulated(&tools, &folder, &files, "windowed_tb");
             assert!(told.starts_with("PASS windowed"), "{told}");
             print!("{lattice} {width}x{height}: {told}");
+            common::check_example(&map, &simulated(&tools, &folder, &files, "windowed_example_tb"));
 
             let trace = files.iter_mut().find(|file| file.path == "tb/windowed.hex").unwrap();
             let end = trace.text.len() - 2;
             let other = if &trace.text[end..=end] == "0" { "8" } else { "0" };
             trace.text.replace_range(end..=end, other);
-            common::write(&folder, &files);
-            let told = common::run(common::command(&vvp, &folder).args(["-n", "bench.vvp"]));
+            let told = simulated(&tools, &folder, &files, "windowed_tb");
             assert!(told.starts_with("FAIL windowed") && !told.contains("PASS"), "{told}");
         }
     }

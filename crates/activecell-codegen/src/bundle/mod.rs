@@ -158,7 +158,7 @@ fn designs(
     program: &[Segment],
     notes: &mut Vec<String>,
 ) -> Result<Vec<Design>, Error> {
-    let &Order { map, fixed_map, .. } = order;
+    let &Order { map, fixed_map, robot: &Robot { drive, .. }, .. } = order;
     let is_vhdl = language == Language::Vhdl;
     let mut designs = vec![
         Design {
@@ -170,7 +170,7 @@ fn designs(
         Design {
             name: "player",
             top: "player_top".into(),
-            files: if is_vhdl { vhdl::player(program)? } else { verilog::player(program)? },
+            files: if is_vhdl { vhdl::player(program, drive)? } else { verilog::player(program, drive)? },
             sizes: size::player(program)?,
         },
     ];

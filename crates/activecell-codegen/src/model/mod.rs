@@ -2,7 +2,8 @@
 
 pub mod fabric;
 pub mod player;
+pub mod player_top;
 pub mod player_trace;
 mod windowed;
 
-pub use windowed::{Shown, Status, Windowed};
+pub use windowed::{Shown, Status, Windowed, WindowedInputs};

@@ -32,29 +32,41 @@ impl Status {
     }
 }
 
+/// What the navigator is given with a clock's edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct WindowedInputs {
+    /// The task is forgotten, and all else passed over.
+    pub reset: bool,
+    /// The step that is shown is made.
+    pub enable: bool,
+    /// A task begins: start and target.
+    pub begin: Option<(Cell, Cell)>,
+}
+
 /// What the navigator shows in a clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Shown {
     /// The active cell.
     pub cell: Cell,
     /// The step to the next one.
-    pub go: Option<Dir>,
+    pub direction: Option<Dir>,
     /// How the task stands.
     pub status: Status,
 }
 
-/// The navigator of [`windowed`](crate::verilog::windowed): after a task is loaded the window comes in the next clock, and
-/// with each later one the robot makes a step.
+/// The navigator of [`windowed`](crate::verilog::windowed): after a task has begun the window comes in the next clock, and
+/// with each later one the robot makes a step, if enabled.
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map};
-/// use activecell_codegen::model::{Status, Windowed};
+/// use activecell_codegen::model::{Status, Windowed, WindowedInputs};
 /// let map = Map::parse(Lattice::Square, "....")?;
 /// let mut navigator = Windowed::new(&map);
-/// navigator.clock(Some((Cell::new(0, 0), Cell::new(3, 0))));
+/// let begin = Some((Cell::new(0, 0), Cell::new(3, 0)));
+/// navigator.clock(WindowedInputs { begin, ..WindowedInputs::default() });
 /// let columns: Vec<i32> = (0..6).map(|_| {
 ///     let x = navigator.shown().cell.x;
-///     navigator.clock(None);
+///     navigator.clock(WindowedInputs { enable: true, ..WindowedInputs::default() });
 ///     x
 /// }).collect();
 /// assert_eq!(columns, [0, 0, 1, 2, 3, 3]);
@@ -88,8 +100,8 @@ impl<'a> Windowed<'a> {
 
     /// What is seen before the next clock edge.
     pub fn shown(&self) -> Shown {
-        let (status, go) = self.task.map_or((Status::Idle, None), |task| self.decided(&task));
-        Shown { cell: self.cell, go, status }
+        let (status, direction) = self.task.map_or((Status::Idle, None), |task| self.decided(&task));
+        Shown { cell: self.cell, direction, status }
     }
 
     fn decided(&self, task: &Task) -> (Status, Option<Dir>) {
@@ -110,15 +122,17 @@ impl<'a> Windowed<'a> {
         }
     }
 
-    /// A clock edge; with it a task may be loaded, from the one cell to the other, both free.
-    pub fn clock(&mut self, load: Option<(Cell, Cell)>) {
-        let go = self.shown().go;
-        if let Some((start, target)) = load {
+    /// A clock edge.
+    pub fn clock(&mut self, inputs: WindowedInputs) {
+        let direction = self.shown().direction.filter(|_| inputs.enable);
+        if inputs.reset {
+            (self.cell, self.task) = (Cell::default(), None);
+        } else if let Some((start, target)) = inputs.begin {
             self.cell = start;
             self.task = Some(Task { target, is_seen: false, visited: 1, mark: 1, saved: None });
         } else if let Some(task) = &mut self.task {
             task.is_seen = true;
-            if let Some(dir) = go {
+            if let Some(dir) = direction {
                 if task.visited == task.mark {
                     task.mark *= 2;
                     task.saved = Some(self.cell);

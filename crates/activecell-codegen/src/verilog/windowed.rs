@@ -3,13 +3,14 @@
 use super::module;
 use crate::SourceFile;
 use crate::circuits::{decision, sector};
-use crate::navigator::{Navigator, comparison_ports};
+use crate::navigator::{Navigator, comparison_ports, direction_names};
 use crate::template::fill;
 use crate::window::{self, Gathered};
 use activecell::{Error, Lattice, Map};
 
 /// The navigator that decides a step a clock by the published rule, its map in block RAM, with all modules that it uses,
-/// the images of its memories, and a test bench with the trace that [`crate::model::Windowed`] makes of random tasks.
+/// the images of its memories, a test bench with the trace that [`crate::model::Windowed`] makes of random tasks, and a bench
+/// that shows how it is used.
 ///
 /// ```
 /// use activecell::{Lattice, Map};
@@ -27,6 +28,9 @@ pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
         comparison_ports(lattice, "        ", |name| format!(".{name}({name})")),
         ("NEIGHBOURHOOD", neighbourhood(lattice)),
         ("MOVES", moves(lattice)),
+        direction_names(lattice, |bits, name| {
+            format!("            {}'b{bits}: name = \"{name}\";", lattice.degree())
+        }),
     ]);
     let bearing = match lattice {
         Lattice::Square => include_str!("templates/bearing_square.v"),
@@ -48,8 +52,12 @@ pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
         });
         SourceFile::new(format!("rtl/map_{}{}.hex", bank / 4, bank % 4), lines.collect::<String>())
     }));
-    let bench = fill(include_str!("templates/windowed_tb.v"), &values);
-    files.extend([SourceFile::new("tb/windowed_tb.v", bench), trace]);
+    let bench = |name: &str, template| SourceFile::new(format!("tb/{name}.v"), fill(template, &values));
+    files.extend([
+        bench("windowed_tb", include_str!("templates/windowed_tb.v")),
+        bench("windowed_example_tb", include_str!("templates/windowed_example_tb.v")),
+        trace,
+    ]);
     Ok(files)
 }
 
@@ -66,7 +74,7 @@ fn neighbourhood(lattice: Lattice) -> String {
 /// Which lanes lead a column or a row on.
 fn moves(lattice: Lattice) -> String {
     let lines = window::moves(lattice).map(|way| {
-        let lanes = by_row(&way, |lanes| joined("go", lanes, " | "));
+        let lanes = by_row(&way, |lanes| joined("direction", lanes, " | "));
         format!("    wire {} = {lanes};", way.name)
     });
     lines.join("\n")
@@ -74,7 +82,7 @@ fn moves(lattice: Lattice) -> String {
 
 /// The text for even and for odd rows, chosen by the row where they differ.
 fn by_row(gathered: &Gathered, text: impl Fn(&[i32]) -> String) -> String {
-    gathered.by_row(text, |even, odd| format!("y[0]\n        ? {odd}\n        : {even}"))
+    gathered.by_row(text, |even, odd| format!("at_y[0]\n        ? {odd}\n        : {even}"))
 }
 
 fn joined(vector: &str, bits: &[i32], separator: &str) -> String {

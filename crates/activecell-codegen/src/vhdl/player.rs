@@ -4,9 +4,9 @@ use super::{bench_lines, entity, lanes};
 use crate::images::{PlayerBench, ProgramImage};
 use crate::model::player::Segment;
 use crate::template::fill;
-use crate::{SourceFile, circuits};
-use activecell::Error;
+use crate::{SourceFile, circuits, motors};
 use activecell::control::State;
+use activecell::{Drive, Error};
 
 /// The control unit of the core as a state machine: `control_unit`, and its table `control_next`.
 ///
@@ -17,7 +17,8 @@ use activecell::control::State;
 /// ```
 pub fn control_unit() -> Vec<SourceFile> {
     let calm = format!("{:03b}", State::Calm as u8);
-    let unit = fill(include_str!("templates/control_unit.vhd"), &[("CALM", &calm)]);
+    let unit =
+        fill(include_str!("templates/control_unit.vhd"), &[("CALM", calm), ("STATES", motors::table("--"))]);
     vec![
         lanes(),
         SourceFile::new("rtl/control_next.vhd", entity(&circuits::control())),
@@ -25,8 +26,8 @@ pub fn control_unit() -> Vec<SourceFile> {
     ]
 }
 
-/// The player of a program ([`crate::model::player`]): `player_top` for the pins of a chip, in it `player`, and the test
-/// bench `player_tb`. What [`crate::verilog::player`] reads from a file is a package here, which every tool takes.
+/// The player of a program ([`crate::model::player`]): `player_top` for the pins of a chip, in it `player`, the test
+/// bench `player_tb`, and the example `player_example_tb`. What [`crate::verilog::player`] reads from a file is a package here, which every tool takes.
 ///
 /// The files are in the order in which they can be analysed.
 ///
@@ -34,25 +35,36 @@ pub fn control_unit() -> Vec<SourceFile> {
 /// [`Error::BadValue`] for more segments than the player counts, and for segments without a tick.
 ///
 /// ```
+/// use activecell::Drive;
 /// use activecell_codegen::{model::player::{Motion, Segment}, vhdl};
-/// let files = vhdl::player(&[Segment { motion: Motion::Forward, ticks: 200 }])?;
+/// let files = vhdl::player(&[Segment { motion: Motion::Forward, ticks: 200 }], Drive::Differential)?;
 /// let program = files.iter().find(|file| file.path == "rtl/player_program.vhd").unwrap();
-/// assert!(program.text.contains(r#"0 => "00011001000", -- forward, 200 ticks"#));
+/// assert!(program.text.contains(r#"0 => "10011001000", -- forward, 200 ticks"#));
 /// # Ok::<(), activecell::Error>(())
 /// ```
-pub fn player(segments: &[Segment]) -> Result<Vec<SourceFile>, Error> {
+pub fn player(segments: &[Segment], drive: Drive) -> Result<Vec<SourceFile>, Error> {
     let image = ProgramImage::of(segments)?;
-    let bench = PlayerBench::of(segments);
-    let bench_values = [("TICKS_MAX", bench.ticks_max.to_string()), ("ABOUT_TICKS", bench.about)];
+    let bench = PlayerBench::of(segments, drive);
+    let values = [
+        ("TICKS_MAX", bench.ticks_max.to_string()),
+        ("ABOUT_TICKS", bench.about),
+        ("STEERED", (drive == Drive::Steered).to_string()),
+        ("STATES", motors::table("--")),
+        ("CASES", motors::cases(|q, name| format!("            when \"{q}\" => return \"{name}\";"))),
+    ];
     let mut files = control_unit();
     files.extend([
         SourceFile::new("rtl/player_inputs.vhd", entity(&circuits::player())),
         SourceFile::new("rtl/encoder_edge.vhd", include_str!("templates/encoder_edge.vhd")),
         SourceFile::new("rtl/player_program.vhd", program(&image)),
         SourceFile::new("rtl/player.vhd", include_str!("templates/player.vhd")),
-        SourceFile::new("rtl/player_top.vhd", include_str!("templates/player_top.vhd")),
+        SourceFile::new("rtl/player_top.vhd", fill(include_str!("templates/player_top.vhd"), &values)),
         bench_lines(),
-        SourceFile::new("tb/player_tb.vhd", fill(include_str!("templates/player_tb.vhd"), &bench_values)),
+        SourceFile::new("tb/player_tb.vhd", fill(include_str!("templates/player_tb.vhd"), &values)),
+        SourceFile::new(
+            "tb/player_example_tb.vhd",
+            fill(include_str!("templates/player_example_tb.vhd"), &values),
+        ),
         bench.hex,
     ]);
     Ok(files)
@@ -63,13 +75,11 @@ fn program(image: &ProgramImage) -> String {
     let lines = image.words.iter().enumerate().take(image.segments);
     let lines =
         lines.map(|(place, (word, about))| format!("        {place} => \"{word:0digits$b}\", -- {about}\n"));
-    let end = image.words.last().map_or(0, |(word, _)| *word);
     let values = [
         ("SEGMENTS", image.segments.to_string()),
         ("SEGMENT_BITS", image.segment_bits.to_string()),
         ("TICK_BITS", image.tick_bits.to_string()),
         ("WORDS", lines.collect()),
-        ("END", format!("{end:0digits$b}")),
     ];
     fill(include_str!("templates/player_program.vhd"), &values)
 }

@@ -2,14 +2,14 @@
 
 use super::{bench_lines, entity, lanes};
 use crate::circuits::{decision, sector};
-use crate::navigator::{Navigator, comparison_ports};
+use crate::navigator::{Navigator, comparison_ports, direction_names};
 use crate::template::fill;
 use crate::window::{self, Gathered};
 use crate::{Banks, SourceFile};
 use activecell::{Error, Lattice, Map};
 
-/// The navigator of [`crate::verilog::windowed`], with the same ports and generics, and its test bench, which reads the
-/// same file. The map is a package here, which every tool takes.
+/// The navigator of [`crate::verilog::windowed`], with the same ports, its test bench, which reads the same file, and
+/// its example. The map is a package here, which every tool takes, so no file's path is a generic.
 ///
 /// The files are in the order in which they can be analysed.
 ///
@@ -29,8 +29,10 @@ pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
         comparison_ports(lattice, "            ", |name| format!("{name} => {name}")),
         ("NEIGHBOURHOOD", neighbourhood(lattice)),
         ("MOVES", moves(lattice)),
+        direction_names(lattice, |bits, name| format!("            when \"{bits}\" => return \"{name}\";")),
     ]);
     let rtl = |name: &str, text: String| SourceFile::new(format!("rtl/{name}.vhd"), text);
+    let bench = |name: &str, template| SourceFile::new(format!("tb/{name}.vhd"), fill(template, &values));
     let bearing = match lattice {
         Lattice::Square => include_str!("templates/bearing_square.vhd"),
         Lattice::Hex => include_str!("templates/bearing_hex.vhd"),
@@ -45,7 +47,8 @@ pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
         rtl(&format!("decide_{lattice}"), entity(&decision(lattice))),
         rtl(&format!("windowed_{lattice}"), fill(include_str!("templates/windowed.vhd"), &values)),
         bench_lines(),
-        SourceFile::new("tb/windowed_tb.vhd", fill(include_str!("templates/windowed_tb.vhd"), &values)),
+        bench("windowed_tb", include_str!("templates/windowed_tb.vhd")),
+        bench("windowed_example_tb", include_str!("templates/windowed_example_tb.vhd")),
         trace,
     ])
 }
@@ -89,7 +92,7 @@ fn moves(lattice: Lattice) -> String {
 
 /// The text for even and for odd rows, chosen by the row where they differ.
 fn by_row(gathered: &Gathered, text: impl Fn(&[i32]) -> String) -> String {
-    gathered.by_row(text, |even, odd| format!("{odd} when at_y(0) = '1' else\n        {even}"))
+    gathered.by_row(text, |even, odd| format!("{odd} when cell_y(0) = '1' else\n        {even}"))
 }
 
 fn joined(vector: &str, bits: &[i32], separator: &str) -> String {

@@ -6,6 +6,7 @@ pub(crate) mod aig;
 pub(crate) mod cxxrtl;
 pub(crate) mod formal;
 
+use activecell::{Cell, Map, Rule};
 use activecell_codegen::SourceFile;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -73,6 +74,21 @@ pub(crate) fn run(command: &mut Command) -> String {
     let text = String::from_utf8_lossy(&stdout).into_owned();
     assert!(status.success(), "{command:?} failed:\n{text}{}", String::from_utf8_lossy(&stderr));
     text
+}
+
+/// What an example prints, a line a cell, must be the published rule's way, which arrives.
+pub(crate) fn check_example(map: &Map, told: &str) {
+    let cell = |line: &str| {
+        let place = line.split(['(', ',', ')']).filter_map(|number| number.parse().ok()).collect::<Vec<_>>();
+        Cell::new(place[0], place[1])
+    };
+    let cells: Vec<Cell> = told.lines().map(cell).collect();
+    let way = map.route(Rule::Published, cells[0], cells[cells.len() - 1], 0).expect("its ends are free");
+    assert_eq!(cells, way.cells());
+    let steps = way.dirs().map(|dir| format!("step {}", map.lattice().dir_name(dir)));
+    for (line, step) in told.lines().zip(steps.chain(["arrived".into()])) {
+        assert!(line.ends_with(&format!(": {step}")), "{line}");
+    }
 }
 
 /// Runs a script of yosys in a folder.

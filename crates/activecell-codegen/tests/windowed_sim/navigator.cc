@@ -21,8 +21,10 @@ int main() {
         top.p_reset.set<bool>(true);
         for (uint32_t clock = 0; clock <= clocks; clock++) {
             if (clock > 0) {
-                top.p_reset.set<bool>(false);
-                top.p_load.set<bool>(number(1));
+                uint32_t control = number(1);
+                top.p_reset.set<bool>(control & 4);
+                top.p_enable.set<bool>(control & 2);
+                top.p_begin__task.set<bool>(control & 1);
                 top.p_start__x.set<uint32_t>(number(2));
                 top.p_start__y.set<uint32_t>(number(2));
                 top.p_target__x.set<uint32_t>(number(2));
@@ -32,9 +34,9 @@ int main() {
             top.step();
             top.p_clk.set<bool>(false);
             top.step();
-            show(top.p_x.get<uint32_t>(), 2);
-            show(top.p_y.get<uint32_t>(), 2);
-            show(top.p_go.get<uint32_t>(), 1);
+            show(top.p_at__x.get<uint32_t>(), 2);
+            show(top.p_at__y.get<uint32_t>(), 2);
+            show(top.p_direction.get<uint32_t>(), 1);
             show(top.p_busy.get<uint32_t>() << 3 | top.p_arrived.get<uint32_t>() << 2 | top.p_enclosed.get<uint32_t>() << 1
                      | top.p_trapped.get<uint32_t>(), 1);
         }

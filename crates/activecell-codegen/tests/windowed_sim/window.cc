@@ -10,6 +10,7 @@ static bool place(cxxrtl_design::p_map__window &top) {
 
 int main() {
     cxxrtl_design::p_map__window top;
+    top.p_enable.set<bool>(true);
     while (place(top)) {
         top.p_clk.set<bool>(false);
         top.step();

@@ -6,18 +6,28 @@
 // clock brings 8 x 8 cells: those about the cell of the last clock, and all that a step to any neighbour
 // adds. So the addresses do not wait for the decision. Cell (0, 0) is stored at column 2 of row 2: thus
 // the window about (x, y) begins at the stored column x of row y. Columns and rows wrap; what the map
-// leaves free of the banks holds obstacles.
+// leaves over of the banks holds obstacles. These are 0, so a memory that was never filled holds nothing
+// but obstacles.
+`default_nettype none
+
 module map_window #(
-    parameter X_BITS = @X_BITS@, // bits of a column's number; the banks have 2^X_BITS columns
-    parameter Y_BITS = @Y_BITS@, // bits of a row's number; the banks have 2^Y_BITS rows
-    parameter WIDTH  = @WIDTH@, // columns of the map
-    parameter HEIGHT = @HEIGHT@  // rows of the map
+    parameter IMAGES = "rtl/map_" // the banks' files are IMAGES00.hex to IMAGES33.hex
 ) (
-    input  wire              clk,
-    input  wire [X_BITS-1:0] x,     // column of the cell: that of the last clock, or at most one more or less
-    input  wire [Y_BITS-1:0] y,     // its row, 0 on top: likewise
-    output wire [24:0]       window // the cells about (x, y)
+    input  wire        clk,
+    input  wire        enable, // 0: the banks' outputs stay, for which (x, y) must stay as well
+    input  wire @COLUMN_RANGE@ x,      // column of the cell: that of the last clock, or at most one more or less
+    input  wire @ROW_RANGE@ y,      // its row, 0 on top: likewise
+    output wire [24:0] window  // the cells about (x, y)
 );
+    localparam WIDTH  = @WIDTH@; // columns of the map
+    localparam HEIGHT = @HEIGHT@; // rows of the map
+    localparam X_BITS = @X_BITS@; // the banks have 2^X_BITS columns, at least 16
+    localparam Y_BITS = @Y_BITS@; // and 2^Y_BITS rows, at least 16
+
+    // The stored cell where the window begins.
+    wire [X_BITS-1:0] stored_x = x;
+    wire [Y_BITS-1:0] stored_y = y;
+
     // The banks. The cells that the next clock may need begin in the stored columns x - 1 to x + 1, and
     // end in x + 3 to x + 5. So each bank reads the last of its tiles that does not begin behind the
     // column x + 5; rows alike.
@@ -25,16 +35,17 @@ module map_window #(
     genvar i, j;
     generate
         for (j = 0; j < 4; j = j + 1) begin : bank_rows
-            wire [Y_BITS-1:0] last_y = y + (5 - 2*j);
+            wire [31:0] last_y = stored_y + 5 - 2*j; // the lowest Y_BITS bits of it
             for (i = 0; i < 4; i = i + 1) begin : banks
                 localparam [7:0] J = "0" + j;
                 localparam [7:0] I = "0" + i;
-                wire [X_BITS-1:0] last_x = x + (5 - 2*i);
+                wire [31:0] last_x = stored_x + 5 - 2*i;
                 map_bank #(
                     .ADDRESS_BITS(X_BITS + Y_BITS - 6),
-                    .IMAGE({"rtl/map_", J, I, ".hex"})
+                    .IMAGE({IMAGES, J, I, ".hex"})
                 ) bank (
                     .clk(clk),
+                    .enable(enable),
                     .address({last_y[Y_BITS-1:3], last_x[X_BITS-1:3]}),
                     .tile({block[16*j + 8 + 2*i +: 2], block[16*j + 2*i +: 2]})
                 );
@@ -48,14 +59,14 @@ module map_window #(
     generate
         for (row = 0; row < 8; row = row + 1) begin : columns
             wire [7:0] cells = block[8*row +: 8];
-            wire [7:0] by_4  = x[2] ? {cells[3:0], cells[7:4]} : cells;
-            wire [5:0] by_2  = x[1] ? by_4[7:2] : by_4[5:0];
-            assign strip[5*row +: 5] = x[0] ? by_2[5:1] : by_2[4:0];
+            wire [7:0] by_4  = stored_x[2] ? {cells[3:0], cells[7:4]} : cells;
+            wire [5:0] by_2  = stored_x[1] ? by_4[7:2] : by_4[5:0];
+            assign strip[5*row +: 5] = stored_x[0] ? by_2[5:1] : by_2[4:0];
         end
     endgenerate
-    wire [39:0] rows_by_4 = y[2] ? {strip[19:0], strip[39:20]} : strip;
-    wire [29:0] rows_by_2 = y[1] ? rows_by_4[39:10] : rows_by_4[29:0];
-    wire [24:0] stored    = y[0] ? rows_by_2[29:5] : rows_by_2[24:0];
+    wire [39:0] rows_by_4 = stored_y[2] ? {strip[19:0], strip[39:20]} : strip;
+    wire [29:0] rows_by_2 = stored_y[1] ? rows_by_4[39:10] : rows_by_4[29:0];
+    wire [24:0] free      = stored_y[0] ? rows_by_2[29:5] : rows_by_2[24:0];
 
     // Where the banks have no room for two columns or rows of obstacles, comparisons tell what lies
     // outside the map.
@@ -63,7 +74,9 @@ module map_window #(
     localparam IS_HIGH = HEIGHT + 2 > 1 << Y_BITS;
     wire [4:0]  outside_x = IS_WIDE ? {x + 2 >= WIDTH, x + 1 >= WIDTH, 1'b0, x < 1, x < 2} : 5'b0;
     wire [4:0]  outside_y = IS_HIGH ? {y + 2 >= HEIGHT, y + 1 >= HEIGHT, 1'b0, y < 1, y < 2} : 5'b0;
-    assign window = stored | {5{outside_x}}
+    assign window = ~free | {5{outside_x}}
                   | {{5{outside_y[4]}}, {5{outside_y[3]}}, {5{outside_y[2]}},
                      {5{outside_y[1]}}, {5{outside_y[0]}}};
 endmodule
+
+`default_nettype wire

@@ -4,43 +4,48 @@
 //     memory -> motion of the segment -> player_inputs -> control_unit -> motors
 //       ^---- next segment <- ticks counted <- encoder
 //
-// M begins where the robot stands at reset, facing along its first run: place it so. A tick is one of the
-// mean of both wheels: with an encoder on each, every second pulse of the two. A steered robot does not
-// roll where it turns: in its turns a tick is a pulse of the steering, one for each step of the lattice
-// (90 degrees on squares, 60 on hexagons).
+// M, the program, is a way over the map as segments: straight runs and turns, each with the ticks that it
+// lasts. A tick is an encoder pulse, in the mean of both wheels; player_top makes it. A steered robot does
+// not roll where it turns: in its turns a tick is a pulse of the steering, one for each step of the lattice
+// (90 degrees on squares, 60 on hexagons). M begins where the robot stands at reset, facing along its first
+// run: place it so.
 //
-// M lies in a read-only memory, a segment (a straight run or a turn) a word: the motion and how many
-// ticks it lasts.
 // - Every tick counts until the program has ended, also while the robot waits: what it rolls on when it
 //   brakes must not be driven twice.
-// - The robot waits (calm) while go is 0, or while there is an obstacle where the segment leads to. It
-//   never leaves its way for it.
+// - The robot waits (is calm, at rest) while go is 0, or while there is an obstacle where the segment leads
+//   to. It never leaves its way for it.
 // - After the last tick it stops, and never moves again until it is reset.
+//
+// A word of the memory is a segment: from the top bit 1, the motion (0 forward, 1 reverse, 2 left, 3
+// right), the ticks. The end is 0, so that a memory of zeros, as some tools make it where they do not find
+// the image, is a program that has ended: the robot stays. In simulations the outputs are then unknown.
+`default_nettype none
+
 module player #(
     parameter SEGMENTS     = @SEGMENTS@, // segments of the program
     parameter SEGMENT_BITS = @SEGMENT_BITS@, // enough for SEGMENTS
     parameter TICK_BITS    = @TICK_BITS@, // enough for the ticks of every segment
-    parameter IMAGE        = "rtl/player.hex", // a word for each segment, and one for the end
+    parameter IMAGE        = "rtl/player.hex", // the program, a word for each segment, and one for the end
     parameter [31:0] TICKS_MAX = 0 // for simulations: unless 0, segments of more ticks end after these
 ) (
-    input  wire                    clk,
-    input  wire                    reset,     // to the beginning of the program; for a clock at least
-    input  wire                    go,        // the robot may drive
-    input  wire                    tick,      // an encoder pulse, a clock long
-    input  wire [3:0]              obstacles, // on the right, on the left, in front, behind (bit 0 first)
-    output wire                    q0,        // to the motors: calm
-    output wire                    q1,        // drive
-    output wire                    q2,        // wheels left
-    output wire                    q3,        // wheels right
-    output wire [SEGMENT_BITS-1:0] segment,   // the segment that the robot is in, from 0
-    output wire                    turning,   // it is a turn: a steered robot counts its steering
+    input  wire                    clk,       // all inputs are synchronous to it; sampled at its rising edge
+    input  wire                    reset,     // active high: to the beginning of the program; needed once
+    input  wire                    go,        // a level: 1 the robot may drive, 0 it waits
+    input  wire                    tick,      // 1 for a clock: a tick
+    input  wire [3:0]              obstacles, // levels: on the right, on the left, in front, behind (bit 0 first)
+    output wire                    q0,        // to the motors, as the table in control_unit tells: at rest
+    output wire                    q1,        // forwards, each wheel that does not roll back
+    output wire                    q2,        // the left wheel back, or steering to the left
+    output wire                    q3,        // the right wheel back, or steering to the right
+    output wire [SEGMENT_BITS-1:0] segment,   // the number of the segment that the robot is in, from 0
+    output wire                    turning,   // that segment is a turn
     output wire                    done       // the program has ended
 );
     // The word of the segment. The memory is asked for the segment of the next clock, so that its word
     // comes in time.
     reg  [TICK_BITS+2:0]    words [0:SEGMENTS];
-    reg  [TICK_BITS+2:0]    word;
-    reg  [SEGMENT_BITS-1:0] number;
+    reg  [TICK_BITS+2:0]    word   = 0;
+    reg  [SEGMENT_BITS-1:0] number = 0;
     wire [SEGMENT_BITS-1:0] next_number;
     wire [1:0]              motion = word[TICK_BITS+1:TICK_BITS];
     wire [TICK_BITS-1:0]    whole  = word[TICK_BITS-1:0];
@@ -53,12 +58,12 @@ module player #(
         number <= next_number;
     end
 
-    assign done    = word[TICK_BITS+2];
+    assign done    = ~word[TICK_BITS+2];
     assign turning = ~done & motion[1];
     assign segment = number;
 
     // The number, in its segment, of the tick that comes next, from 1.
-    reg  [TICK_BITS-1:0] count;
+    reg  [TICK_BITS-1:0] count = 1;
     wire is_last = tick & ~done & count == ticks;
 
     assign next_number = reset ? {SEGMENT_BITS{1'b0}} : number + is_last;
@@ -80,3 +85,5 @@ module player #(
         .clk(clk), .reset(reset), .g(g), .q0(q0), .q1(q1), .q2(q2), .q3(q3)
     );
 endmodule
+
+`default_nettype wire

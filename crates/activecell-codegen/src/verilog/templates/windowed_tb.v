@@ -1,7 +1,9 @@
 // Test bench of windowed_@LATTICE@: @TASKS@ tasks over @CLOCKS@ clocks. Each line of tb/windowed.hex is a
 // clock: the inputs, and what the model in Rust shows. Prints PASS, or FAIL with the first difference.
-// Run it in the folder above rtl and tb.
-`timescale 1ns / 1ns
+// Run it in the folder above rtl and tb. How the navigator is used, windowed_example_tb shows.
+`timescale 1ns / 1ps
+`default_nettype none
+
 module windowed_tb;
     localparam CLOCKS   = @CLOCKS@;
     localparam X_DIGITS = @X_DIGITS@; // hexadecimal digits of a column's number in the file
@@ -12,45 +14,45 @@ module windowed_tb;
     integer        n;
 
     // The fields of a line.
-    reg [3:0]            load;
+    reg [3:0]            control; // reset, enable, begin_task in bit 0
     reg [4*X_DIGITS-1:0] start_x, target_x, expected_x;
     reg [4*Y_DIGITS-1:0] start_y, target_y, expected_y;
-    reg [7:0]            expected_go;
+    reg [7:0]            expected_direction;
     reg [3:0]            expected_flags;
 
-    reg                 clk = 1'b0;
-    reg                 reset = 1'b1;
-    wire [@X_BITS@-1:0] x;
-    wire [@Y_BITS@-1:0] y;
-    wire [@TOP@:0]      go;
-    wire                busy, arrived, enclosed, trapped;
+    reg         clk = 1'b0;
+    wire @COLUMN_RANGE@ at_x;
+    wire @ROW_RANGE@ at_y;
+    wire @DIRECTION_RANGE@ direction;
+    wire        busy, arrived, enclosed, trapped;
 
     windowed_@LATTICE@ dut (
-        .clk(clk), .reset(reset), .load(load[0]),
-        .start_x(start_x[@X_BITS@-1:0]), .start_y(start_y[@Y_BITS@-1:0]),
-        .target_x(target_x[@X_BITS@-1:0]), .target_y(target_y[@Y_BITS@-1:0]),
-        .x(x), .y(y), .go(go), .busy(busy), .arrived(arrived), .enclosed(enclosed), .trapped(trapped)
+        .clk(clk), .reset(control[2]), .enable(control[1]), .begin_task(control[0]),
+        .start_x(start_x[@COLUMN_TOP@:0]), .start_y(start_y[@ROW_TOP@:0]),
+        .target_x(target_x[@COLUMN_TOP@:0]), .target_y(target_y[@ROW_TOP@:0]),
+        .at_x(at_x), .at_y(at_y), .direction(direction),
+        .busy(busy), .arrived(arrived), .enclosed(enclosed), .trapped(trapped)
     );
 
     always #5 clk = ~clk;
 
     initial begin
         $readmemh("tb/windowed.hex", lines);
-        load = 4'd0;
+        control = 4'b0100;
         {start_x, start_y, target_x, target_y} = 0;
         @(negedge clk);
-        reset = 1'b0;
         for (n = 0; n < CLOCKS; n = n + 1) begin
-            {load, start_x, start_y, target_x, target_y,
-             expected_x, expected_y, expected_go, expected_flags} = lines[n];
+            {control, start_x, start_y, target_x, target_y,
+             expected_x, expected_y, expected_direction, expected_flags} = lines[n];
             #1;
-            if (x !== expected_x[@X_BITS@-1:0] || y !== expected_y[@Y_BITS@-1:0]
-                || go !== expected_go[@TOP@:0]
+            if (at_x !== expected_x[@COLUMN_TOP@:0] || at_y !== expected_y[@ROW_TOP@:0]
+                || direction !== expected_direction[@TOP@:0]
                 || {busy, arrived, enclosed, trapped} !== expected_flags) begin
-                $display("FAIL windowed_@LATTICE@: clock %0d: at (%0d,%0d), go %b, status %b",
-                    n, x, y, go, {busy, arrived, enclosed, trapped});
-                $display("    expected: at (%0d,%0d), go %b, status %b (busy, arrived, enclosed, trapped)",
-                    expected_x, expected_y, expected_go[@TOP@:0], expected_flags);
+                $display("FAIL windowed_@LATTICE@: clock %0d: at (%0d,%0d), direction %b, status %b",
+                    n, at_x, at_y, direction, {busy, arrived, enclosed, trapped});
+                $display("    expected: at (%0d,%0d), direction %b, status %b",
+                    expected_x, expected_y, expected_direction[@TOP@:0], expected_flags);
+                $display("    (status: busy, arrived, enclosed, trapped)");
                 $finish;
                 n = CLOCKS;
             end
@@ -61,3 +63,5 @@ module windowed_tb;
         $finish;
     end
 endmodule
+
+`default_nettype wire

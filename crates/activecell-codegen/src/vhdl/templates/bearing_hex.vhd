@@ -10,34 +10,34 @@ use work.lanes.all;
 
 entity bearing_hex is
     generic (
-        X_BITS : positive := 8; -- bits of a column's number
-        Y_BITS : positive := 8  -- bits of a row's number
+        COLUMN_BITS : positive := 8; -- bits of a column's number
+        ROW_BITS    : positive := 8  -- bits of a row's number
     );
     port (
-        x        : in  std_logic_vector(X_BITS - 1 downto 0); -- the cell's column
-        y        : in  std_logic_vector(Y_BITS - 1 downto 0); -- the cell's row, 0 on top
-        target_x : in  std_logic_vector(X_BITS - 1 downto 0); -- the target's column
-        target_y : in  std_logic_vector(Y_BITS - 1 downto 0); -- the target's row
-        is_left  : out std_logic;                             -- the target lies to the left
-        is_right : out std_logic;                             -- the target lies to the right
-        is_above : out std_logic;                             -- the target lies above
-        is_below : out std_logic;                             -- the target lies below
-        is_wide  : out std_logic;                             -- farther across than down
-        is_level : out std_logic;                             -- as far across as down
-        is_flat  : out std_logic;                             -- farther across than three times down
-        is_even  : out std_logic;                             -- as far across as three times down
-        is_near  : out std_logic                              -- the target is a neighbour
+        x        : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- the cell's column
+        y        : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- the cell's row, 0 on top
+        target_x : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- the target's column
+        target_y : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- the target's row
+        is_left  : out std_logic;                                  -- the target lies to the left
+        is_right : out std_logic;                                  -- the target lies to the right
+        is_above : out std_logic;                                  -- the target lies above
+        is_below : out std_logic;                                  -- the target lies below
+        is_wide  : out std_logic;                                  -- farther across than down
+        is_level : out std_logic;                                  -- as far across as down
+        is_flat  : out std_logic;                                  -- farther across than three times down
+        is_even  : out std_logic;                                  -- as far across as three times down
+        is_near  : out std_logic                                   -- the target is a neighbour
     );
 end entity bearing_hex;
 
 architecture rtl of bearing_hex is
-    constant ACROSS_MAX : positive := 2**(X_BITS + 1);
-    constant DOWN_MAX   : positive := 2**Y_BITS;
+    constant ACROSS_MAX : positive := 2**(COLUMN_BITS + 1);
+    constant DOWN_MAX   : positive := 2**ROW_BITS;
 
     -- Half cells from the left edge to the centres, less the half cell that both have: twice the
     -- column, 1 more in odd rows.
-    signal from_left   : std_logic_vector(X_BITS downto 0);
-    signal target_left : std_logic_vector(X_BITS downto 0);
+    signal from_left   : std_logic_vector(COLUMN_BITS downto 0);
+    signal target_left : std_logic_vector(COLUMN_BITS downto 0);
     signal across      : integer range -ACROSS_MAX to ACROSS_MAX;
     signal down        : integer range -DOWN_MAX to DOWN_MAX;
 

@@ -7,27 +7,27 @@ use work.lanes.all;
 
 entity bearing_square is
     generic (
-        X_BITS : positive := 8; -- bits of a column's number
-        Y_BITS : positive := 8  -- bits of a row's number
+        COLUMN_BITS : positive := 8; -- bits of a column's number
+        ROW_BITS    : positive := 8  -- bits of a row's number
     );
     port (
-        x        : in  std_logic_vector(X_BITS - 1 downto 0); -- the cell's column
-        y        : in  std_logic_vector(Y_BITS - 1 downto 0); -- the cell's row, 0 on top
-        target_x : in  std_logic_vector(X_BITS - 1 downto 0); -- the target's column
-        target_y : in  std_logic_vector(Y_BITS - 1 downto 0); -- the target's row
-        is_left  : out std_logic;                             -- the target lies to the left
-        is_right : out std_logic;                             -- the target lies to the right
-        is_above : out std_logic;                             -- the target lies above
-        is_below : out std_logic;                             -- the target lies below
-        is_near  : out std_logic                              -- the target is a neighbour
+        x        : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- the cell's column
+        y        : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- the cell's row, 0 on top
+        target_x : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- the target's column
+        target_y : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- the target's row
+        is_left  : out std_logic;                                  -- the target lies to the left
+        is_right : out std_logic;                                  -- the target lies to the right
+        is_above : out std_logic;                                  -- the target lies above
+        is_below : out std_logic;                                  -- the target lies below
+        is_near  : out std_logic                                   -- the target is a neighbour
     );
 end entity bearing_square;
 
 architecture rtl of bearing_square is
-    signal column        : natural range 0 to 2**X_BITS - 1;
-    signal row           : natural range 0 to 2**Y_BITS - 1;
-    signal target_column : natural range 0 to 2**X_BITS - 1;
-    signal target_row    : natural range 0 to 2**Y_BITS - 1;
+    signal column        : natural range 0 to 2**COLUMN_BITS - 1;
+    signal row           : natural range 0 to 2**ROW_BITS - 1;
+    signal target_column : natural range 0 to 2**COLUMN_BITS - 1;
+    signal target_row    : natural range 0 to 2**ROW_BITS - 1;
 begin
     column        <= to_integer(unsigned(x));
     row           <= to_integer(unsigned(y));

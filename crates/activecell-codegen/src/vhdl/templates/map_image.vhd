@@ -3,7 +3,14 @@ library ieee;
 use ieee.std_logic_1164.all;
 
 package map_image is
-    -- Tiles of 2 x 2 cells, 1 for an obstacle: upper left, upper right, lower left, lower right from
+    constant WIDTH       : positive := @WIDTH@; -- columns of the map
+    constant HEIGHT      : positive := @HEIGHT@; -- rows of the map
+    constant COLUMN_BITS : positive := @COLUMN_BITS@; -- bits of a column's number
+    constant ROW_BITS    : positive := @ROW_BITS@; -- bits of a row's number
+    constant X_BITS      : positive := @X_BITS@; -- the banks have 2^X_BITS columns, at least 16
+    constant Y_BITS      : positive := @Y_BITS@; -- and 2^Y_BITS rows, at least 16
+
+    -- Tiles of 2 x 2 cells, 1 for a free cell: upper left, upper right, lower left, lower right from
     -- bit 0.
     type tiles_type is array (natural range <>) of std_logic_vector(3 downto 0);
 

@@ -6,35 +6,35 @@
 -- a clock brings 8 x 8 cells: those about the cell of the last clock, and all that a step to any
 -- neighbour adds. So the addresses do not wait for the decision. Cell (0, 0) is stored at column 2 of
 -- row 2: thus the window about (x, y) begins at the stored column x of row y. Columns and rows wrap;
--- what the map leaves free of the banks holds obstacles.
+-- what the map leaves over of the banks holds obstacles, which are 0.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
 use work.lanes.all;
+use work.map_image.all;
 
 entity map_window is
-    generic (
-        X_BITS : positive := @X_BITS@; -- bits of a column's number; the banks have 2^X_BITS columns
-        Y_BITS : positive := @Y_BITS@; -- bits of a row's number; the banks have 2^Y_BITS rows
-        WIDTH  : positive := @WIDTH@; -- columns of the map
-        HEIGHT : positive := @HEIGHT@  -- rows of the map
-    );
     port (
         clk    : in  std_logic;
-        x      : in  std_logic_vector(X_BITS - 1 downto 0); -- column of the cell, at most one off
-        y      : in  std_logic_vector(Y_BITS - 1 downto 0); -- that of the last clock; its row likewise
-        window : out std_logic_vector(24 downto 0)          -- the cells about (x, y)
+        enable : in  std_logic; -- 0: the banks' outputs stay, for which (x, y) must stay as well
+        x      : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- column of the cell, at most one off
+        y      : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- that of the last clock; its row likewise
+        window : out std_logic_vector(24 downto 0)               -- the cells about (x, y)
     );
 end entity map_window;
 
 architecture rtl of map_window is
+    -- The stored cell where the window begins.
+    signal stored_x : unsigned(X_BITS - 1 downto 0);
+    signal stored_y : unsigned(Y_BITS - 1 downto 0);
+
     signal fetched : std_logic_vector(63 downto 0); -- 8 x 8 cells, row by row
     signal strip   : std_logic_vector(39 downto 0); -- of each row the five columns of the window
 
     -- The five rows of the window, found in three halvings.
     signal rows_by_4 : std_logic_vector(39 downto 0);
     signal rows_by_2 : std_logic_vector(29 downto 0);
-    signal stored    : std_logic_vector(24 downto 0);
+    signal free      : std_logic_vector(24 downto 0);
 
     -- Where the banks have no room for two columns or rows of obstacles, comparisons tell what lies
     -- outside the map.
@@ -50,25 +50,28 @@ architecture rtl of map_window is
     signal outside_x : std_logic_vector(4 downto 0);
     signal outside_y : std_logic_vector(4 downto 0);
 begin
+    stored_x <= resize(unsigned(x), X_BITS);
+    stored_y <= resize(unsigned(y), Y_BITS);
+
     -- The cells that the next clock may need begin in the stored columns x - 1 to x + 1, and end in x +
     -- 3 to x + 5. So each bank reads the last of its tiles that does not begin behind the column x + 5;
     -- rows alike.
     bank_rows : for j in 0 to 3 generate
         signal last_y : unsigned(Y_BITS - 1 downto 0);
     begin
-        last_y <= unsigned(y) + (5 - 2*j) mod 2**Y_BITS;
+        last_y <= stored_y + (5 - 2*j) mod 2**Y_BITS;
 
         banks : for i in 0 to 3 generate
             signal last_x  : unsigned(X_BITS - 1 downto 0);
             signal address : std_logic_vector(X_BITS + Y_BITS - 7 downto 0);
         begin
-            last_x  <= unsigned(x) + (5 - 2*i) mod 2**X_BITS;
+            last_x  <= stored_x + (5 - 2*i) mod 2**X_BITS;
             address <= std_logic_vector(last_y(Y_BITS - 1 downto 3) & last_x(X_BITS - 1 downto 3));
 
             bank : entity work.map_bank
                 generic map (ADDRESS_BITS => X_BITS + Y_BITS - 6, BANK => 4*j + i)
                 port map (
-                    clk => clk, address => address,
+                    clk => clk, enable => enable, address => address,
                     tile(3 downto 2) => fetched(16*j + 2*i + 9 downto 16*j + 2*i + 8),
                     tile(1 downto 0) => fetched(16*j + 2*i + 1 downto 16*j + 2*i)
                 );
@@ -82,19 +85,20 @@ begin
         signal by_2  : std_logic_vector(5 downto 0);
     begin
         cells <= fetched(8*row + 7 downto 8*row);
-        by_4  <= cells(3 downto 0) & cells(7 downto 4) when x(2) = '1' else cells;
-        by_2  <= by_4(7 downto 2) when x(1) = '1' else by_4(5 downto 0);
-        strip(5*row + 4 downto 5*row) <= by_2(5 downto 1) when x(0) = '1' else by_2(4 downto 0);
+        by_4  <= cells(3 downto 0) & cells(7 downto 4) when stored_x(2) = '1' else cells;
+        by_2  <= by_4(7 downto 2) when stored_x(1) = '1' else by_4(5 downto 0);
+        strip(5*row + 4 downto 5*row) <= by_2(5 downto 1) when stored_x(0) = '1' else by_2(4 downto 0);
     end generate columns;
 
-    rows_by_4 <= strip(19 downto 0) & strip(39 downto 20) when y(2) = '1' else strip;
-    rows_by_2 <= rows_by_4(39 downto 10) when y(1) = '1' else rows_by_4(29 downto 0);
-    stored    <= rows_by_2(29 downto 5) when y(0) = '1' else rows_by_2(24 downto 0);
+    rows_by_4 <= strip(19 downto 0) & strip(39 downto 20) when stored_y(2) = '1' else strip;
+    rows_by_2 <= rows_by_4(39 downto 10) when stored_y(1) = '1' else rows_by_4(29 downto 0);
+    free      <= rows_by_2(29 downto 5) when stored_y(0) = '1' else rows_by_2(24 downto 0);
 
     outside_x <= outside(to_integer(unsigned(x)), WIDTH) when IS_WIDE else "00000";
     outside_y <= outside(to_integer(unsigned(y)), HEIGHT) when IS_HIGH else "00000";
 
     window_rows : for j in 0 to 4 generate
-        window(5*j + 4 downto 5*j) <= stored(5*j + 4 downto 5*j) or outside_x or (4 downto 0 => outside_y(j));
+        window(5*j + 4 downto 5*j) <=
+            not free(5*j + 4 downto 5*j) or outside_x or (4 downto 0 => outside_y(j));
     end generate window_rows;
 end architecture rtl;

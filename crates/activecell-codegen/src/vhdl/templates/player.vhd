@@ -4,18 +4,20 @@
 --     memory -> motion of the segment -> player_inputs -> control_unit -> motors
 --       ^---- next segment <- ticks counted <- encoder
 --
--- M begins where the robot stands at reset, facing along its first run: place it so. A tick is one of the
--- mean of both wheels: with an encoder on each, every second pulse of the two. A steered robot does not
--- roll where it turns: in its turns a tick is a pulse of the steering, one for each step of the lattice
--- (90 degrees on squares, 60 on hexagons).
+-- M, the program, is a way over the map as segments: straight runs and turns, each with the ticks that it
+-- lasts. A tick is an encoder pulse, in the mean of both wheels; player_top makes it. A steered robot does
+-- not roll where it turns: in its turns a tick is a pulse of the steering, one for each step of the lattice
+-- (90 degrees on squares, 60 on hexagons). M begins where the robot stands at reset, facing along its first
+-- run: place it so.
 --
--- M lies in a read-only memory (the package player_program), a segment (a straight run or a turn) a
--- word: the motion and how many ticks it lasts.
 -- - Every tick counts until the program has ended, also while the robot waits: what it rolls on when it
 --   brakes must not be driven twice.
--- - The robot waits (calm) while go is 0, or while there is an obstacle where the segment leads to. It
---   never leaves its way for it.
+-- - The robot waits (is calm, at rest) while go is 0, or while there is an obstacle where the segment leads
+--   to. It never leaves its way for it.
 -- - After the last tick it stops, and never moves again until it is reset.
+--
+-- The memory is the package player_program. A word is a segment: from the left 1, the motion (0 forward, 1
+-- reverse, 2 left, 3 right), the ticks. The end is 0: in a memory of zeros no segment is driven.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -26,17 +28,17 @@ entity player is
         TICKS_MAX : natural := 0 -- for simulations: unless 0, segments of more ticks end after these
     );
     port (
-        clk       : in  std_logic;
-        reset     : in  std_logic;                    -- to the beginning of the program; for a clock at least
-        go        : in  std_logic;                    -- the robot may drive
-        tick      : in  std_logic;                    -- an encoder pulse, a clock long
-        obstacles : in  std_logic_vector(3 downto 0); -- right, left, front, behind (bit 0 first)
-        q0        : out std_logic;                    -- to the motors: calm
-        q1        : out std_logic;                    -- drive
-        q2        : out std_logic;                    -- wheels left
-        q3        : out std_logic;                    -- wheels right
-        segment   : out std_logic_vector(SEGMENT_BITS - 1 downto 0); -- that it is in, from 0
-        turning   : out std_logic;                    -- it is a turn: a steered robot counts its steering
+        clk       : in  std_logic;                    -- all inputs are sampled at its rising edge
+        reset     : in  std_logic;                    -- active high: to the program's beginning; needed once
+        go        : in  std_logic;                    -- a level: 1 the robot may drive, 0 it waits
+        tick      : in  std_logic;                    -- 1 for a clock: a tick
+        obstacles : in  std_logic_vector(3 downto 0); -- levels: right, left, front, behind (bit 0 first)
+        q0        : out std_logic;                    -- to the motors, see control_unit: at rest
+        q1        : out std_logic;                    -- forwards, each wheel that does not roll back
+        q2        : out std_logic;                    -- the left wheel back, or steering to the left
+        q3        : out std_logic;                    -- the right wheel back, or steering to the right
+        segment   : out std_logic_vector(SEGMENT_BITS - 1 downto 0); -- that the robot is in, from 0
+        turning   : out std_logic;                    -- that segment is a turn
         done      : out std_logic                     -- the program has ended
     );
 end entity player;
@@ -44,7 +46,7 @@ end entity player;
 architecture rtl of player is
     -- The word of the segment. The memory is asked for the segment of the next clock, so that its word
     -- comes in time.
-    signal word        : word_type := PROGRAM(0);
+    signal word        : word_type := (others => '0');
     signal number      : unsigned(SEGMENT_BITS - 1 downto 0) := (others => '0');
     signal next_number : unsigned(SEGMENT_BITS - 1 downto 0);
     signal motion      : std_logic_vector(1 downto 0);
@@ -58,7 +60,7 @@ architecture rtl of player is
 
     signal g : std_logic_vector(7 downto 0);
 begin
-    is_end <= word(TICK_BITS + 2);
+    is_end <= not word(TICK_BITS + 2);
     motion <= word(TICK_BITS + 1 downto TICK_BITS);
     whole  <= unsigned(word(TICK_BITS - 1 downto 0));
     ticks  <= to_unsigned(TICKS_MAX, TICK_BITS) when TICKS_MAX > 0 and whole > TICKS_MAX else whole;

@@ -8,12 +8,11 @@ package player_program is
     constant SEGMENT_BITS : positive := @SEGMENT_BITS@; -- enough for SEGMENTS
     constant TICK_BITS    : positive := @TICK_BITS@; -- enough for the ticks of every segment
 
-    -- From the left: whether the program has ended, the motion (0 forward, 1 reverse, 2 left, 3 right),
-    -- the ticks.
+    -- From the left: 1, the motion (0 forward, 1 reverse, 2 left, 3 right), the ticks. The end is 0.
     subtype word_type is std_logic_vector(TICK_BITS + 2 downto 0);
     type program_type is array (natural range 0 to 2**SEGMENT_BITS - 1) of word_type;
 
     constant PROGRAM : program_type := (
-@WORDS@        others => "@END@" -- the end
+@WORDS@        others => (others => '0') -- the end
     );
 end package player_program;
