@@ -2,6 +2,7 @@
 
 use super::firmware::define;
 use crate::model::player::Scale;
+use crate::motors;
 use activecell::control::State;
 use activecell::{Cell, Drive, Error, Map, Robot};
 
@@ -69,23 +70,11 @@ impl Units {
     }
 }
 
-/// For each state its outputs, and what they ask of the motors of either drive.
+/// For each state its outputs as a word, and what they ask of the motors of either drive.
 pub(super) fn state_table() -> String {
-    State::ALL.map(|state| state_line(state) + "\n").concat()
-}
-
-fn state_line(state: State) -> String {
-    let bits = state.outputs().into_iter().enumerate().filter(|(_, bit)| *bit);
-    let names: Vec<String> = bits.clone().map(|(place, _)| format!("q{place}")).collect();
-    let number: u32 = bits.map(|(place, _)| 1 << place).sum();
-    let names = if names.is_empty() { "none".into() } else { names.join(" ") };
-    let [differential, steered] = match state {
-        State::Calm => ["off: waits, ready to start", "off: waits, ready to start"],
-        State::Forward => ["both wheels forwards", "drive forwards"],
-        State::Left => ["left wheel backwards, right forwards", "steer to the left, drive off"],
-        State::Right => ["left wheel forwards, right backwards", "steer to the right, drive off"],
-        State::Stopped => ["off: has arrived; calm comes next", "off: has arrived; calm comes next"],
-        State::Reverse => ["both wheels backwards", "drive backwards"],
-    };
-    format!(" *   {:<8} {number:>2}  {names:<6} {differential:<37} {steered}", state.name())
+    let words = State::ALL.map(|state| {
+        let bits = state.outputs().into_iter().enumerate().map(|(place, bit)| u32::from(bit) << place);
+        format!("{} {}", state.name(), bits.sum::<u32>())
+    });
+    format!("{}\n *\n * As words, q0 in bit 0: {}.\n", motors::table(" *"), words.join(", "))
 }

@@ -70,7 +70,7 @@ fn headers_of_the_rule_alone_are_compiled_without_a_warning() {
     let headers: Vec<&str> = files.iter().filter_map(|file| file.path.strip_prefix("include/")).collect();
     assert_eq!(headers.len(), 6, "{headers:?}");
     for file in files.iter().filter(|file| file.path.starts_with("include/")) {
-        let text = file.text.split_once("\n").map_or("", |(_licence, text)| text);
+        let text = file.text.split_once('\n').map_or("", |(_licence, text)| text);
         assert!(text.starts_with("/*\n * "), "{}: the first comment says what it is", file.path);
     }
     let include = |names: &[&str]| {

@@ -250,8 +250,6 @@ ac_move ac_wave_next(const ac_wave *wave, ac_cell cell);
 /*
  * What the outputs ask of the motors. Reverse is q2 and q3 without q1.
  *
- *   state   outputs     differential drive                    steered drive
- *
 @STATE_TABLE@ */
 
 /** The state that follows on these inputs. Numbers that are no states act as calm. */
