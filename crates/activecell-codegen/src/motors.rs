@@ -1,4 +1,4 @@
-//! What the control unit's outputs say to the motors, for the comments of the hardware.
+//! What the control unit's outputs say to the motors, for comments and READMEs.
 
 use activecell::control::State;
 
@@ -31,6 +31,12 @@ const fn when(state: State) -> &'static str {
     }
 }
 
+/// What the motors do in a state: the left wheel and the right one, or steered wheels; and when it comes.
+pub(crate) const fn motors(state: State) -> [&'static str; 4] {
+    let [_, drive, left, right] = state.outputs();
+    [wheel(drive, left), wheel(drive, right), steered(state), when(state)]
+}
+
 /// The states with their outputs, a line each, as a comment; `comment` begins it.
 pub(crate) fn table(comment: &str) -> String {
     let line = |q: &str, name: &str, [left, right, steered, when]: [&str; 4]| {
@@ -38,9 +44,8 @@ pub(crate) fn table(comment: &str) -> String {
         text.trim_end().to_owned()
     };
     let rows = State::ALL.map(|state| {
-        let [_, drive, left, right] = state.outputs();
         let q = state.outputs().map(|output| if output { " 1" } else { " 0" }).join(" ");
-        line(&q, state.name(), [wheel(drive, left), wheel(drive, right), steered(state), when(state)])
+        line(&q, state.name(), motors(state))
     });
     let head = line("q0 q1 q2 q3", "state", ["left wheel", "right wheel", "or steered wheels", ""]);
     [&[head][..], &rows].concat().join("\n")
@@ -62,10 +67,7 @@ mod tests {
     /// The rule by which wheels follow the outputs does in each state what the state is for.
     #[test]
     fn wheels_do_what_the_state_says() {
-        let wheels = |state: State| {
-            let [_, drive, left, right] = state.outputs();
-            [wheel(drive, left), wheel(drive, right)]
-        };
+        let wheels = |state: State| [motors(state)[0], motors(state)[1]];
         let expected = [
             (State::Calm, ["at rest"; 2]),
             (State::Forward, ["forwards"; 2]),

@@ -290,6 +290,33 @@ fn simulated([iverilog, vvp]: &[PathBuf; 2], folder: &Path, bench: &str) -> Stri
     common::run(common::command(vvp, folder).args(["-n", "bench"]))
 }
 
+/// Faults between the pins and the player, which the test bench must find, and the kind of robot that shows them.
+const FAULTS: [(&str, &str, &str, Drive); 6] = [
+    ("rtl/player_top.v", "left_pulse & right_pulse | has_half", "has_half", Drive::Differential),
+    ("rtl/player_top.v", "has_half ^ left_pulse", "left_pulse", Drive::Differential),
+    ("rtl/player_top.v", "STEERED != 0 && turning", "turning", Drive::Differential),
+    ("rtl/player_top.v", "STEERED != 0 && turning", "1'b0", Drive::Steered),
+    ("rtl/player_top.v", "shown <= {ended, q}", "shown <= {ended, q[3:2], q[0], q[1]}", Drive::Steered),
+    ("rtl/encoder_edge.v", "settled & ~before", "settled", Drive::Differential),
+];
+
+#[test]
+fn the_test_bench_finds_faults_between_pins_and_player() {
+    let test = "the_test_bench_finds_faults_between_pins_and_player";
+    let Some(tools) = common::programs(test, ["iverilog", "vvp"]) else { return };
+    let folder = common::folder("player_faults");
+    let segments = Motion::ALL.map(|motion| Segment { motion, ticks: 50 });
+    for (path, right, wrong, drive) in FAULTS {
+        let mut files = verilog::player(&segments, drive).unwrap();
+        let file = files.iter_mut().find(|file| file.path == path).expect("the file");
+        assert!(file.text.contains(right), "{}", file.text);
+        file.text = file.text.replacen(right, wrong, 1);
+        common::write(&folder, &files);
+        assert!(simulated(&tools, &folder, "player_tb").contains("FAIL player"), "{path} {wrong}");
+    }
+    println!("{} faults between pins and player: the test bench finds them", FAULTS.len());
+}
+
 /// The example drives every segment for all its ticks; without its program it moves not at all.
 #[test]
 fn the_example_drives_its_program() {

@@ -96,7 +96,9 @@ fn size(size: &Size) -> String {
 fn design(design: &Design) -> String {
     let (name, top) = (design.name, &design.top);
     let ending = design.files.first().map_or("", |file| file.path.rsplit('.').next().unwrap_or(""));
-    format!("| {name} | `{top}` in `rtl/{top}.{ending}` | `tb/{name}_tb.{ending}` |\n")
+    format!(
+        "| {name} | `{top}` in `rtl/{top}.{ending}` | `tb/{name}_tb.{ending}` | `tb/{name}_example_tb.{ending}` |\n"
+    )
 }
 
 /// The files with what their first comments say; images of memories and traces in one line.

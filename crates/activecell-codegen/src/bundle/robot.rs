@@ -2,6 +2,7 @@
 
 use super::Order;
 use crate::model::player::Scale;
+use crate::motors::motors;
 use activecell::control::State;
 use activecell::{Drive, Robot};
 
@@ -31,24 +32,12 @@ pub(super) fn robot(order: &Order<'_>) -> String {
     rows.map(|(what, value)| format!("| {what} | {value} |\n")).concat()
 }
 
-/// What the drive is told in each state of the control unit.
+/// What the drive is told in each state of the control unit, and what the motors do.
 pub(super) fn outputs() -> String {
     let row = |state: State| {
         let [q0, q1, q2, q3] = state.outputs().map(u8::from);
-        let [differential, steered] = motors(state);
-        format!("| {} | {q3}{q2}{q1}{q0} | {differential} | {steered} |\n", state.name())
+        let [left, right, steered, when] = motors(state);
+        format!("| {} | {q3}{q2}{q1}{q0} | {left} | {right} | {steered} | {when} |\n", state.name())
     };
     State::ALL.map(row).concat()
-}
-
-/// What the motors do: those of a differential drive, those of a steered one.
-const fn motors(state: State) -> [&'static str; 2] {
-    match state {
-        State::Calm => ["off", "off"],
-        State::Forward => ["both forwards", "wheels straight, forwards"],
-        State::Left => ["left back, right forwards", "steering to the left"],
-        State::Right => ["left forwards, right back", "steering to the right"],
-        State::Reverse => ["both back", "wheels straight, back"],
-        State::Stopped => ["off, for one clock", "off, for one clock"],
-    }
 }

@@ -63,7 +63,7 @@ pub fn windowed(map: &Map) -> Result<Vec<SourceFile>, Error> {
 
 /// The lanes of the neighbourhood, from the cells of the window.
 fn neighbourhood(lattice: Lattice) -> String {
-    let about = ["each neighbour", "straight behind it", "behind it and the next"];
+    let about = ["each neighbour", "straight behind", "behind it and the next"];
     let lines = window::neighbourhood(lattice).into_iter().zip(about).map(|(lanes, about)| {
         let cells = by_row(&lanes, |cells| format!("{{{}}}", joined("window", cells, ", ")));
         format!("    wire [{}:0] {} = {cells}; // {about}\n", lattice.degree() - 1, lanes.name)

@@ -1,4 +1,5 @@
 # make sim      runs the test benches; each ends with PASS or FAIL
+# make example  one task a design, told for people: how to use it
 # make synth    synthesis, place and route for an iCE40 HX8K: LUTs, block RAMs, clock
 # make clean    removes what was built
 #
@@ -18,6 +19,12 @@ $(DESIGNS:%=sim-%): sim-%:
 	@$(IVERILOG) -g2005 -Wall -Wno-timescale -o build/$*.vvp -s $*_tb tb/$*_tb.v $($*_RTL)
 	@$(VVP) -n build/$*.vvp | tee build/$*.log
 	@grep -q '^PASS' build/$*.log
+
+$(DESIGNS:%=example-%): example-%:
+	@mkdir -p build
+	@echo "$*: an example"
+	@$(IVERILOG) -g2005 -Wall -Wno-timescale -o build/$*_example.vvp -s $*_example_tb tb/$*_example_tb.v $($*_RTL)
+	@$(VVP) -n build/$*_example.vvp
 
 $(DESIGNS:%=synth-%): synth-%:
 	@mkdir -p build

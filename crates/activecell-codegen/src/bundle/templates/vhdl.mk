@@ -1,4 +1,5 @@
 # make sim      runs the test benches; each ends with PASS or FAIL
+# make example  one task a design, told for people: how to use it
 # make synth    synthesis, place and route for an iCE40 HX8K: LUTs, block RAMs, clock
 # make clean    removes what was built
 #
@@ -20,6 +21,13 @@ $(DESIGNS:%=sim-%): sim-%:
 	@$(GHDL) -e $(FLAGS) -o build/$@/$*_tb $*_tb
 	@$(GHDL) -r $(FLAGS) $*_tb --ieee-asserts=disable-at-0 2>&1 | sed 's/.*(report note): //' | tee build/$*.log
 	@grep -q '^PASS' build/$*.log
+
+$(DESIGNS:%=example-%): example-%:
+	@mkdir -p build/$@
+	@echo "$*: an example"
+	@$(GHDL) -a $(FLAGS) $($*_RTL) tb/$*_example_tb.vhd
+	@$(GHDL) -e $(FLAGS) -o build/$@/$*_example_tb $*_example_tb
+	@$(GHDL) -r $(FLAGS) $*_example_tb --ieee-asserts=disable-at-0 2>&1 | sed 's/.*(report note): //'
 
 # GHDL makes Verilog of the design, yosys gates of that. GHDL drops attributes, so yosys is told to take block RAM.
 $(DESIGNS:%=synth-%): synth-%:

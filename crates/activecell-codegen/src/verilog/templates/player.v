@@ -32,7 +32,7 @@ module player #(
     input  wire                    reset,     // active high: to the beginning of the program; needed once
     input  wire                    go,        // a level: 1 the robot may drive, 0 it waits
     input  wire                    tick,      // 1 for a clock: a tick
-    input  wire [3:0]              obstacles, // levels: on the right, on the left, in front, behind (bit 0 first)
+    input  wire [3:0]              obstacles, // levels: right, left, front, behind (bit 0 first)
     output wire                    q0,        // to the motors, as the table in control_unit tells: at rest
     output wire                    q1,        // forwards, each wheel that does not roll back
     output wire                    q2,        // the left wheel back, or steering to the left

@@ -18,7 +18,7 @@
 
 module player_top #(
     parameter        IMAGE     = "rtl/player.hex", // the program; a path from the folder where the tool runs
-    parameter        STEERED   = @STEERED@, // 1: in turns the pulses of the steering count; 0: always the wheels'
+    parameter        STEERED   = @STEERED@, // 1: turns count the steering's pulses; 0: all count the wheels'
     parameter [31:0] TICKS_MAX = 0  // for simulations: unless 0, segments of more ticks end after these
 ) (
     input  wire       clk,         // all happens at its rising edge; at least four clocks for each pulse

@@ -20,17 +20,17 @@
 // the target.
 //
 // at_x and at_y are registers. The other outputs follow from block RAM by way of the decision, in most of
-// a clock (about 20 ns on an iCE40 HX8K): put registers behind them if much logic follows.
+// a clock (20 to 26 ns on an iCE40 HX8K): put registers behind them if much logic follows.
 `default_nettype none
 
 module windowed_@LATTICE@ #(
     parameter IMAGES = "rtl/map_" // where the memories' files are: IMAGES00.hex to IMAGES33.hex
 ) (
-    input  wire        clk,        // its rising edge samples all inputs
-    input  wire        reset,      // forgets the task, whatever the others are; needed once, for a clock
+    input  wire        clk,        // its rising edge samples all inputs; they are active high
+    input  wire        reset,      // synchronous, once after configuration: forgets the task, wins over all
     input  wire        enable,     // the step that is shown is made; 0: stand still
     input  wire        begin_task, // takes the next four, in place of a task that is under way
-    input  wire @COLUMN_RANGE@ start_x,    // column where the robot is, 0 on the left
+    input  wire @COLUMN_RANGE@ start_x,    // the robot's column, 0 on the left
     input  wire @ROW_RANGE@ start_y,    // its row, 0 on top
     input  wire @COLUMN_RANGE@ target_x,   // column where it shall go
     input  wire @ROW_RANGE@ target_y,   // its row

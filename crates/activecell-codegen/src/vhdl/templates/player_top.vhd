@@ -19,7 +19,7 @@ use ieee.std_logic_1164.all;
 
 entity player_top is
     generic (
-        STEERED   : boolean := @STEERED@; -- in turns the pulses of the steering count; else always the wheels'
+        STEERED   : boolean := @STEERED@; -- turns count the steering's pulses, not the wheels'
         TICKS_MAX : natural := 0 -- for simulations: unless 0, segments of more ticks end after these
     );
     port (

@@ -20,7 +20,7 @@
 -- the target.
 --
 -- at_x and at_y are registers. The other outputs follow from block RAM by way of the decision, in most of
--- a clock (about 20 ns on an iCE40 HX8K): put registers behind them if much logic follows.
+-- a clock (20 to 26 ns on an iCE40 HX8K): put registers behind them if much logic follows.
 library ieee;
 use ieee.std_logic_1164.all;
 use ieee.numeric_std.all;
@@ -29,11 +29,11 @@ use work.map_image.all;
 
 entity windowed_@LATTICE@ is
     port (
-        clk        : in  std_logic; -- its rising edge samples all inputs
-        reset      : in  std_logic; -- forgets the task, whatever the others are; needed once, for a clock
+        clk        : in  std_logic; -- its rising edge samples all inputs; they are active high
+        reset      : in  std_logic; -- synchronous, once after configuration: forgets the task, wins over all
         enable     : in  std_logic; -- the step that is shown is made; 0: stand still
         begin_task : in  std_logic; -- takes the next four, in place of a task that is under way
-        start_x    : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- column where the robot is, 0 on the left
+        start_x    : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- the robot's column, 0 on the left
         start_y    : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- its row, 0 on top
         target_x   : in  std_logic_vector(COLUMN_BITS - 1 downto 0); -- column where it shall go
         target_y   : in  std_logic_vector(ROW_BITS - 1 downto 0);    -- its row
