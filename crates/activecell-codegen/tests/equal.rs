@@ -210,10 +210,10 @@ fn decisions_never_lead_into_obstacles() {
         let top = lattice.degree() - 1;
         let sector = circuit.inputs.iter().find(|port| port.name == "sector").unwrap().width - 1;
         let claims = format!(
-            "module claims(input [{top}:0] ring1, ahead, between, input [{sector}:0] sector, input near, output ok);
+            "module claims(input [{top}:0] ring1, ahead, between, input [{sector}:0] sector, input is_near, output ok);
     wire [{top}:0] go;
     wire enclosed;
-    decide_{lattice} dut(.ring1(ring1), .ahead(ahead), .between(between), .sector(sector), .near(near),
+    decide_{lattice} dut(.ring1(ring1), .ahead(ahead), .between(between), .sector(sector), .is_near(is_near),
         .go(go), .enclosed(enclosed));
     wire at_most_one = (go & (go - 1)) == 0;
     wire into_none = (go & ring1) == 0;

@@ -91,7 +91,7 @@ pub fn generate(language: Language, order: Option<&Order<'_>>) -> Result<Bundle,
     let (route, program) = program(order, &mut notes)?;
     let facing = route.dirs().next().map(|dir| order.map.lattice().dir_name(dir));
     let parts = if language == Language::C {
-        let program = c::Program { route: &route, segments: &program };
+        let program = c::Program { route: &route, segments: &program, robot: order.robot };
         let files = c::firmware(order.map, &program)?;
         Parts { files, sizes: size::firmware(order.map, &program), notes, facing, ..Parts::default() }
     } else {

@@ -27,7 +27,7 @@ pub fn function(circuit: &Circuit) -> String {
         text += &structure(&name, &outputs);
         format!("{name}_outputs")
     };
-    let about: String = circuit.inputs.iter().map(|port| item(&port.name, &port.about)).collect();
+    let about: String = circuit.inputs.iter().map(item).collect();
     text += &comment(&format!("{}\n{}", circuit.about, about.trim_end()));
     let inputs: Vec<String> = circuit.inputs.iter().map(|port| format!("uint32_t {}", port.name)).collect();
     text += &format!("static {result} {name}({})\n{{\n", wrapped(&inputs));
@@ -95,12 +95,13 @@ pub fn header(circuit: &Circuit) -> String {
     )
 }
 
-/// A header for each circuit, and what they share.
+/// A header for each circuit, and what they share. The example has the rule of both lattices.
 pub fn headers(circuits: &[Circuit]) -> Vec<SourceFile> {
     let header =
         |circuit: &Circuit| SourceFile::new(format!("include/ac_{}.h", circuit.name), header(circuit));
     let shared = SourceFile::new("include/ac_bit.h", include_str!("templates/ac_bit.h"));
-    std::iter::once(shared).chain(circuits.iter().map(header)).collect()
+    let example = SourceFile::new("examples/rules.c", include_str!("templates/examples/rules.c"));
+    std::iter::once(shared).chain(circuits.iter().map(header)).chain([example]).collect()
 }
 
 fn structure(name: &str, outputs: &[&Wire]) -> String {
@@ -112,8 +113,9 @@ fn structure(name: &str, outputs: &[&Wire]) -> String {
     text + &format!("}} {name}_outputs;\n\n")
 }
 
-fn item(name: &str, about: &str) -> String {
-    format!("- {name}: {about}\n")
+/// An input, with the numbers that it may be.
+fn item(Port { name, about, width, .. }: &Port) -> String {
+    format!("- {name}, 0 to {}: {about}\n", (1u64 << width) - 1)
 }
 
 /// A block comment; long lines are broken.
@@ -160,7 +162,7 @@ fn tables(circuit: &Circuit) -> String {
         text += "    };\n";
         // Behind the end of a table its last entry.
         let row = if rows == 1 << width {
-            index.clone()
+            format!("{index} & {}", number(rows as u32 - 1))
         } else {
             format!("({index} < {rows}U) ? {index} : {}U", rows - 1)
         };

@@ -67,6 +67,7 @@ pub(super) fn examples(footprint: Footprint, program_bytes: u64) -> Vec<SourceFi
     ];
     let files = [
         ("main.c", include_str!("templates/examples/main.c")),
+        ("robot.c", include_str!("templates/examples/robot.c")),
         ("cortex_m.c", include_str!("templates/examples/cortex_m.c")),
         ("startup.c", include_str!("templates/examples/startup.c")),
         ("startup.h", include_str!("templates/examples/startup.h")),

@@ -1,6 +1,7 @@
 //! The whole firmware: header, sources, map, program, examples.
 
 use super::circuit::function;
+use super::units::{Units, state_table};
 use super::{Program, examples, lattice};
 use crate::model::player::Motion;
 use crate::template::fill;
@@ -39,7 +40,8 @@ pub fn footprint(map: &Map) -> Footprint {
 /// `main`, which checks itself, and for a board with a Cortex-M that has memory enough. The lattice is that of the map.
 ///
 /// # Errors
-/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, and segments without a tick.
+/// [`Error::BadValue`] for maps with a side of more than 65,535 cells, segments without a tick, and cells or turns of more
+/// than 2,097,151 ticks.
 ///
 /// ```
 /// use activecell::{Cell, Lattice, Map, Robot};
@@ -49,7 +51,7 @@ pub fn footprint(map: &Map) -> Footprint {
 /// let route = map.wave(Cell::new(2, 1))?.route(Cell::new(0, 0));
 /// let robot = Robot::default();
 /// let segments = segments(&route.program(&robot, &map, None), &robot, Lattice::Square)?;
-/// let files = c::firmware(&map, &c::Program { route: &route, segments: &segments })?;
+/// let files = c::firmware(&map, &c::Program { route: &route, segments: &segments, robot: &robot })?;
 /// assert!(files.iter().any(|file| file.path == "include/activecell.h"));
 /// # Ok::<(), activecell::Error>(())
 /// ```
@@ -63,15 +65,16 @@ pub fn firmware(map: &Map, program: &Program<'_>) -> Result<Vec<SourceFile>, Err
         });
     }
     program.check()?;
+    let units = Units::of(program.robot, map)?;
     let mut files = vec![
-        SourceFile::new("include/activecell.h", header(map, program)),
+        SourceFile::new("include/activecell.h", header(map, program, &units)),
         SourceFile::new("src/ac_bit.h", include_str!("templates/ac_bit.h")),
         SourceFile::new("src/ac_rule.c", rule(map.lattice())),
         SourceFile::new("src/ac_learning.c", learning(map.lattice())),
         SourceFile::new("src/ac_wave.c", wave(map.lattice())),
         SourceFile::new("src/ac_drive.c", drive()),
         SourceFile::new("src/ac_map.c", floor(map)),
-        SourceFile::new("src/ac_program.c", program.listing()),
+        SourceFile::new("src/ac_program.c", program.listing(&units)),
     ];
     files.extend(examples::examples(footprint(map), program.bytes()));
     Ok(files)
@@ -105,9 +108,9 @@ impl Shape {
         self.words * (self.height + 4 + self.planes * self.height)
     }
 
-    /// One entry stays vacant.
+    /// At most three quarters are ever taken: in a fuller table entries are searched for long.
     const fn levels(&self) -> u64 {
-        (self.free + 2).next_power_of_two()
+        (4 * self.free / 3 + 2).next_power_of_two()
     }
 }
 
@@ -118,7 +121,7 @@ pub(super) fn define(name: &str, value: u64, about: &str) -> String {
     )
 }
 
-fn header(map: &Map, program: &Program<'_>) -> String {
+fn header(map: &Map, program: &Program<'_>, units: &Units) -> String {
     let lattice = map.lattice();
     let shape = Shape::of(map);
     let degree = lattice.degree();
@@ -128,13 +131,12 @@ fn header(map: &Map, program: &Program<'_>) -> String {
         .collect();
     let states = State::ALL.map(|state| define(&format!("AC_{}", upper(state.name())), state as u64, ""));
     let motions = Motion::ALL.iter().enumerate();
-    let motions: String = [define("AC_MOTIONS", Motion::ALL.len() as u64, "How many; a power of two.")]
-        .into_iter()
-        .chain(motions.map(|(number, motion)| define(&motion_name(*motion), number as u64, "")))
-        .collect();
+    let motions: String =
+        motions.map(|(number, motion)| define(&motion_name(*motion), number as u64, "")).collect();
     let sizes = [
         define("AC_FLOOR_WIDTH", shape.width, "Columns of the map."),
         define("AC_FLOOR_HEIGHT", shape.height, "Rows of the map."),
+        define("AC_FLOOR_MAP_WORDS", shape.length(), "Words of the map itself."),
         define("AC_FLOOR_WAVE_WORDS", shape.wave_words(), "Memory of a wave on it."),
         define("AC_FLOOR_LEVELS", shape.levels(), "A table of that capacity always suffices on it."),
     ];
@@ -143,6 +145,7 @@ fn header(map: &Map, program: &Program<'_>) -> String {
         &[
             ("VERSION", env!("CARGO_PKG_VERSION")),
             ("LATTICE", cells_of(lattice)),
+            ("STACK", "1024"),
             ("SIDE_MAX", &SIDE_MAX.to_string()),
             ("DEGREE", &degree.to_string()),
             ("DIRECTIONS", &directions),
@@ -158,9 +161,19 @@ fn header(map: &Map, program: &Program<'_>) -> String {
             ("MAP_SIZES", &sizes.concat()),
             ("CHECKSUM", &format!("0x{:08X}U", examples::checksum(lattice))),
             ("STEP_DEG", &(360 / u32::from(degree)).to_string()),
+            ("SECTOR_ORDER", &sector_order(lattice)),
+            ("STATE_TABLE", &state_table()),
+            ("UNITS", &units.defines()),
             ("PROGRAM", &program.declaration()),
         ],
     )
+}
+
+/// How the sectors are counted: what the circuit of the decision says of it.
+fn sector_order(lattice: Lattice) -> String {
+    let about = circuits::decision(lattice).about;
+    let line = about.lines().find(|line| line.starts_with("Sectors: ")).unwrap_or_default();
+    line.replace(" nearest, and ", " nearest, and\n * ")
 }
 
 const fn cells_of(lattice: Lattice) -> &'static str {
@@ -188,7 +201,8 @@ fn inputs() -> String {
 
 fn rule(lattice: Lattice) -> String {
     let [right, down] = lattice::neighbours(lattice);
-    let (parities, parity) = if lattice == Lattice::Hex { ("2", "cell.y & 1U") } else { ("1", "0") };
+    let (parities, parity) =
+        if lattice == Lattice::Hex { ("2", "(uint32_t)cell.y & 1U") } else { ("1", "0") };
     fill::<&str>(
         include_str!("templates/ac_rule.c"),
         &[

@@ -73,15 +73,15 @@ pub(super) fn list(numbers: impl Iterator<Item = i32>) -> String {
 pub(super) fn slices(lattice: Lattice) -> String {
     let place = |name: &str, bit: &str| {
         format!(
-            "    const uint32_t *const {name} = &map->rows[(cell.y * words) + ({bit} >> 5U)];\n    \
+            "    const uint32_t *const {name} = &map->rows[((uint32_t)cell.y * words) + ({bit} >> 5U)];\n    \
              const uint32_t {name}_right = {bit} & 31U;\n    \
              const uint32_t {name}_left = 31U - {name}_right;\n"
         )
     };
-    let mut text = place("here", "cell.x");
+    let mut text = place("here", "(uint32_t)cell.x");
     if lattice == Lattice::Hex {
         text += "    /* Beside an odd row the rows lie half a cell to the left. */\n";
-        text += "    const uint32_t aside = (uint32_t)cell.x + (cell.y & 1U);\n";
+        text += "    const uint32_t aside = (uint32_t)cell.x + ((uint32_t)cell.y & 1U);\n";
         text += &place("beside", "aside");
     }
     for (row, name) in ROWS.iter().enumerate() {

@@ -5,6 +5,7 @@ mod examples;
 mod firmware;
 mod lattice;
 mod program;
+mod units;
 
 pub use circuit::{function, header, headers};
 pub use firmware::{Footprint, firmware, footprint, rows};

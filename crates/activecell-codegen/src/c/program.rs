@@ -1,17 +1,20 @@
 //! The program M in C: its segments, its ends, and where the robot faces at first.
 
 use super::firmware::{define, motion_name};
+use super::units::Units;
 use crate::model::player::Segment;
 use crate::template::fill;
-use activecell::{Cell, Dir, Error, Route};
+use activecell::{Cell, Dir, Error, Robot, Route};
 
 /// The program M of a route.
 #[derive(Debug, Clone, Copy)]
 pub struct Program<'a> {
-    /// The way that it drives, of the wave: the examples follow it, and look whether it is as long.
+    /// The way that it drives, a shortest one: the examples look whether theirs are as long.
     pub route: &'a Route,
     /// The runs and turns along it; none if the robot is there already.
     pub segments: &'a [Segment],
+    /// The robot that drives it; also the cells and turns of other ways are in its ticks.
+    pub robot: &'a Robot,
 }
 
 impl Program<'_> {
@@ -63,7 +66,11 @@ impl Program<'_> {
             define("AC_PROGRAM_TO_X", to.x as u64, ""),
             define("AC_PROGRAM_TO_Y", to.y as u64, ""),
             format!("#define AC_PROGRAM_HEADING AC_{heading} /**< Where the robot faces at the start. */\n"),
-            define("AC_PROGRAM_STEPS", self.route.steps() as u64, "From cell to cell: the wave's way."),
+            define(
+                "AC_PROGRAM_STEPS",
+                self.route.steps() as u64,
+                "Steps of its way: as many as of every shortest one.",
+            ),
             define("AC_PROGRAM_COUNT", self.segments.len() as u64, "Segments of the program."),
         ];
         let (length, about) = if self.segments.is_empty() {
@@ -80,7 +87,7 @@ impl Program<'_> {
     }
 
     /// The file with the segments.
-    pub(super) fn listing(&self) -> String {
+    pub(super) fn listing(&self, units: &Units) -> String {
         let line =
             |Segment { motion, ticks }: &Segment| format!("    {{ {}, {ticks}U }},\n", motion_name(*motion));
         let segments: String = self.segments.iter().map(line).collect();
@@ -97,6 +104,7 @@ impl Program<'_> {
                 ("FROM", &from.to_string()),
                 ("TO", &to.to_string()),
                 ("START", &self.start()),
+                ("ROBOT", &units.about()),
                 ("LENGTH", length),
                 ("SEGMENTS", &segments),
             ],

@@ -25,7 +25,7 @@ pub fn decision(lattice: Lattice) -> Circuit {
     let between =
         circuit.input("between", lanes, "obstacles between each neighbour and the next one clockwise");
     let sector = circuit.input("sector", sector_bits(lattice), "where the target lies");
-    let near = circuit.input("near", 1, "the target is a neighbour, the first of the sector");
+    let near = circuit.input("is_near", 1, "the target is a neighbour, the first of the sector");
 
     let lookup = |table: Vec<u32>| Expr::Lookup { table, width: lanes, index: sector };
     let is_first = circuit.wire("is_first", lookup(table.first()), "the neighbour that is asked first");

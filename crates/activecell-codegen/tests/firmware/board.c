@@ -75,10 +75,10 @@ int main(void)
     steps = 0U;
     sum = 0U;
     move = AC_FULL;
-    if (ac_learning_start(&learning, target, levels, AC_FLOOR_LEVELS)) {
-        move = ac_learning_step(&learning, &ac_floor, cell);
+    if (ac_learning_start(&learning, &ac_floor, target, levels, AC_FLOOR_LEVELS)) {
+        move = ac_learning_step(&learning, cell);
     }
-    for (; move < AC_DIRECTIONS; move = ac_learning_step(&learning, &ac_floor, cell)) {
+    for (; move < AC_DIRECTIONS; move = ac_learning_step(&learning, cell)) {
         cell = ac_neighbour(cell, move);
         ++steps;
         sum = hashed(sum, move);
@@ -87,8 +87,8 @@ int main(void)
 
     steps = 0U;
     sum = 0U;
-    ac_replay_start(&robot, from, target);
-    for (move = ac_replay_step(&robot, &ac_floor); move < AC_DIRECTIONS; move = ac_replay_step(&robot, &ac_floor)) {
+    ac_replay_start(&robot, &ac_floor, from, target);
+    for (move = ac_replay_step(&robot); move < AC_DIRECTIONS; move = ac_replay_step(&robot)) {
         ++steps;
         sum = hashed(sum, move);
     }

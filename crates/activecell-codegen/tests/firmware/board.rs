@@ -129,6 +129,29 @@ fn task(from: Cell, to: Cell) -> [String; 4] {
         .map(|(name, value)| format!("-D{name}={value}U"))
 }
 
+/// All frames together are more than any chain of calls takes: no function calls itself.
+#[test]
+fn frames_are_small() {
+    let Some(tools) = Tools::new("frames_are_small") else { return };
+    for lattice in Lattice::ALL {
+        let folder = written(&format!("frames_{lattice}"), &warehouse(lattice), None);
+        let header = std::fs::read_to_string(folder.join("include/activecell.h")).unwrap();
+        let said = header.split("frames of less than ").nth(1).and_then(|text| text.split(' ').next());
+        let most: u32 = said.unwrap().parse().unwrap();
+        for board in [M0, M4] {
+            tools.compiled(&folder, board, &sources(&folder), &["-fstack-usage".into()]);
+            let usage = objects(&folder)
+                .into_iter()
+                .filter_map(|object| std::fs::read_to_string(folder.join(object.replace(".o", ".su"))).ok());
+            let usage = usage.collect::<Vec<_>>().concat();
+            let frames = usage.lines().map(|line| line.split('\t').nth(1).unwrap().parse::<u32>().unwrap());
+            let sum: u32 = frames.sum();
+            println!("{lattice} {}: all frames together take {sum} bytes", board.name);
+            assert!((1..most).contains(&sum), "{lattice} {}: {sum}", board.name);
+        }
+    }
+}
+
 /// No part of the firmware has variables of its own or calls a library; decision and window are small.
 #[test]
 fn code_is_small_and_needs_no_memory() {

@@ -36,7 +36,7 @@ int main(void)
     ac_wave_flood(&wave);
 #endif
 #if WHAT == 4 || WHAT == 8
-    if (!ac_learning_start(&learning, target, levels, AC_FLOOR_LEVELS)) {
+    if (!ac_learning_start(&learning, &ac_floor, target, levels, AC_FLOOR_LEVELS)) {
         return 1;
     }
 #endif
@@ -58,7 +58,7 @@ int main(void)
         move = ac_wave_next(&wave, cell);
         cell = (move < AC_DIRECTIONS) ? ac_neighbour(cell, move) : from;
 #elif WHAT == 4
-        move = ac_learning_step(&learning, &ac_floor, cell);
+        move = ac_learning_step(&learning, cell);
         cell = (move < AC_DIRECTIONS) ? ac_neighbour(cell, move) : from;
 #elif WHAT == 5
         move = ac_player_clock(&player, true, (state >> 31U) != 0U, state & 0x3CU);

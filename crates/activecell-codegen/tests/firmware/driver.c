@@ -129,10 +129,10 @@ static void replay(const ac_map *map, ac_cell from, ac_cell target)
 {
     ac_replay robot;
     ac_move move;
-    ac_replay_start(&robot, from, target);
+    ac_replay_start(&robot, map, from, target);
     do {
         put_cell(robot.cell);
-        move = ac_replay_step(&robot, map);
+        move = ac_replay_step(&robot);
     } while (move < AC_DIRECTIONS);
     put(0xFFFFFFFFU);
     put(move);
@@ -145,12 +145,12 @@ static void learn(const ac_map *map, ac_cell from, ac_cell target, uint32_t capa
     ac_learning learning;
     ac_cell cell = from;
     ac_move move = AC_OUTSIDE;
-    if ((levels == NULL) || !ac_learning_start(&learning, target, levels, capacity)) {
+    if ((levels == NULL) || !ac_learning_start(&learning, map, target, levels, capacity)) {
         exit(4);
     }
     for (;;) {
         put_cell(cell);
-        move = ac_learning_step(&learning, map, cell);
+        move = ac_learning_step(&learning, cell);
         if (move >= AC_DIRECTIONS) {
             break;
         }
@@ -233,11 +233,94 @@ static void small(void)
     }
 }
 
+/* Learns the way to a target, on the map that it is given; if that is not true, it bumps into what is there. */
+static ac_move learns(const ac_map *map, uint32_t *rows, const ac_map *truth, ac_cell from, ac_cell target)
+{
+    ac_level levels[32];
+    ac_learning learning;
+    ac_cell cell = from;
+    ac_move move;
+    uint32_t steps = 0U;
+    if (!ac_learning_start(&learning, map, target, levels, 32U)) {
+        exit(4);
+    }
+    for (move = ac_learning_step(&learning, cell); move < AC_DIRECTIONS; move = ac_learning_step(&learning, cell)) {
+        const ac_cell next = ac_neighbour(cell, move);
+        if (ac_is_free(truth, next)) {
+            cell = next;
+        } else if (!ac_map_set(rows, map, next, true) || ac_is_free(map, next)) {
+            exit(6);
+        }
+        if (++steps > 10000U) {
+            exit(8);
+        }
+    }
+    return move;
+}
+
+static void clear(uint32_t *rows, const ac_map *map, bool is_obstacle)
+{
+    ac_cell cell;
+    for (cell.y = 0U; cell.y <= map->height; ++cell.y) {
+        for (cell.x = 0U; cell.x <= map->width; ++cell.x) {
+            if (ac_map_set(rows, map, cell, is_obstacle) != ((cell.x < map->width) && (cell.y < map->height))) {
+                exit(6);
+            }
+        }
+    }
+}
+
+/* All maps of 4 x 4, all targets, all starts: how it ends with the map and without it; a byte each. */
+static void learn_small(void)
+{
+    uint32_t number;
+    for (number = 0U; number < 65536U; ++number) {
+        uint32_t rows[9];
+        uint32_t unknown[9];
+        const ac_map truth = { rows, 4U, 4U, 1U };
+        const ac_map map = { unknown, 4U, 4U, 1U };
+        uint32_t task;
+        memset(rows, 0xFF, sizeof rows);
+        memset(unknown, 0xFF, sizeof unknown);
+        for (task = 0U; task < 16U; ++task) {
+            const ac_cell cell = { (uint16_t)(task % 4U), (uint16_t)(task / 4U) };
+            (void)ac_map_set(rows, &truth, cell, ((number >> task) & 1U) != 0U);
+        }
+        for (task = 0U; task < 256U; ++task) {
+            const ac_cell target = { (uint16_t)((task / 16U) % 4U), (uint16_t)(task / 64U) };
+            const ac_cell from = { (uint16_t)(task % 4U), (uint16_t)((task / 4U) % 4U) };
+            if (ac_is_free(&truth, target) && ac_is_free(&truth, from)) {
+                (void)putchar((int)learns(&truth, rows, &truth, from, target));
+                clear(unknown, &map, false);
+                (void)putchar((int)learns(&map, unknown, &truth, from, target));
+            }
+        }
+    }
+}
+
+static void course(void)
+{
+    ac_course robot;
+    uint32_t count;
+    ac_course_start(&robot, get());
+    for (count = get(); count > 0U; --count) {
+        ac_segment segments[2] = { { 0U, 0U }, { 0U, 0U } };
+        const uint32_t used = ac_course_move(&robot, segments, get());
+        put(robot.heading);
+        put(used);
+        put(segments[0].motion);
+        put(segments[0].ticks);
+        put(segments[1].motion);
+        put(segments[1].ticks);
+    }
+}
+
 static void player(void)
 {
     const uint32_t count = get();
     ac_segment *const segments = malloc(((size_t)count + 1U) * sizeof *segments);
     ac_player robot;
+    ac_player twin;
     uint32_t clocks;
     uint32_t place;
     if (segments == NULL) {
@@ -248,9 +331,22 @@ static void player(void)
         segments[place].ticks = get();
     }
     ac_player_start(&robot, segments, count);
+    ac_player_start(&twin, segments, count);
     for (clocks = get(); clocks > 0U; --clocks) {
-        const uint32_t senses = get();
-        put(ac_player_clock(&robot, (senses & 1U) != 0U, (senses & 2U) != 0U, senses & 0xFCU));
+        const bool go = get() != 0U;
+        const uint32_t ticks = get();
+        const uint32_t obstacles = get();
+        const uint32_t outputs = ac_player_advance(&robot, go, ticks, obstacles);
+        uint32_t tick;
+        uint32_t others = ac_player_clock(&twin, go, ticks > 0U, obstacles);
+        for (tick = 1U; tick < ticks; ++tick) {
+            others = ac_player_clock(&twin, go, true, obstacles);
+        }
+        if ((others != outputs) || (twin.state != robot.state) || (twin.segment != robot.segment)
+            || (twin.ticks != robot.ticks)) {
+            exit(7);
+        }
+        put(outputs);
         put(robot.state);
         put(robot.segment);
         put(robot.ticks);
@@ -290,7 +386,8 @@ int main(int count, char **arguments)
         void (*run)(void);
     } modes[] = {
         { "decide", decide }, { "control", control }, { "sectors", sectors }, { "tasks", tasks },
-        { "small", small },   { "player", player },   { "latency", latency },
+        { "small", small },   { "player", player },   { "latency", latency }, { "learns", learn_small },
+        { "course", course },
     };
     size_t mode;
     for (mode = 0U; mode < (sizeof modes / sizeof modes[0]); ++mode) {

@@ -40,13 +40,18 @@ fn written(test: &str, map: &Map, segments: Option<&[Segment]>) -> PathBuf {
     folder
 }
 
-/// For the longest way; the program of a usual robot if no other is given.
+/// Cells and turns of it are no whole numbers of ticks.
+fn robot() -> Robot {
+    Robot { ticks_per_rev: 37.3, ..Robot::default() }
+}
+
+/// For the longest way; the program of that robot if no other is given.
 fn firmware(map: &Map, segments: Option<&[Segment]>) -> Result<Vec<SourceFile>, Error> {
     let (from, to) = long_way(map)?;
     let route = map.wave(to)?.route(from);
-    let robot = Robot::default();
+    let robot = robot();
     let usual = player::segments(&route.program(&robot, map, None), &robot, map.lattice())?;
-    c::firmware(map, &c::Program { route: &route, segments: segments.unwrap_or(&usual) })
+    c::firmware(map, &c::Program { route: &route, segments: segments.unwrap_or(&usual), robot: &robot })
 }
 
 /// The sources of the firmware in a folder, for a command.

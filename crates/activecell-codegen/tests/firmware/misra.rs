@@ -1,9 +1,9 @@
 //! MISRA C:2012, as far as cppcheck knows it; and the examples, without a warning.
 
 use crate::{STRICT, common, sources, warehouse, written};
-use activecell::{Lattice, Map};
+use activecell::{Drive, Lattice, Map, Robot};
 use activecell_codegen::model::player::{Motion, Segment};
-use activecell_codegen::{Language, generate};
+use activecell_codegen::{Language, Order, generate, long_way};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -70,7 +70,8 @@ fn headers_of_the_rule_alone_are_compiled_without_a_warning() {
     let headers: Vec<&str> = files.iter().filter_map(|file| file.path.strip_prefix("include/")).collect();
     assert_eq!(headers.len(), 6, "{headers:?}");
     for file in files.iter().filter(|file| file.path.starts_with("include/")) {
-        assert!(file.text.starts_with("/*\n * "), "{}: the first comment says what it is", file.path);
+        let text = file.text.split_once('\n').map_or("", |(_licence, text)| text);
+        assert!(text.starts_with("/*\n * "), "{}: the first comment says what it is", file.path);
     }
     let include = |names: &[&str]| {
         names.iter().map(|name| format!("#include \"{name}\"\n")).collect::<Vec<_>>().concat()
@@ -87,13 +88,22 @@ fn headers_of_the_rule_alone_are_compiled_without_a_warning() {
         }
         println!("{}: {} headers, each alone and together", compiler.display(), headers.len());
     }
+    let Some([gcc]) = common::programs("headers_of_the_rule_alone", ["gcc"]) else { return };
+    common::run(common::command(&gcc, &folder).args(STRICT).args(["-o", "rules", "examples/rules.c"]));
+    let said = common::run(&mut common::command(&folder.join("rules"), &folder));
+    assert_eq!(said, "lane 1, then state 1 with q1: forward\n");
 }
 
 /// Compiles and runs the plain example, which checks itself: whether it found all right, and what it said.
 fn plain(gcc: &Path, folder: &Path, level: &str) -> (bool, String) {
-    let files = [sources(folder), vec!["examples/main.c".into()]].concat();
-    common::run(common::command(gcc, folder).args(STRICT).args([level, "-o", "route"]).args(files));
-    let output = common::command(&folder.join("route"), folder).output().unwrap();
+    example(gcc, folder, "main", level)
+}
+
+/// The same with any example.
+fn example(gcc: &Path, folder: &Path, name: &str, level: &str) -> (bool, String) {
+    let files = [sources(folder), vec![format!("examples/{name}.c")]].concat();
+    common::run(common::command(gcc, folder).args(STRICT).args([level, "-o", name]).args(files));
+    let output = common::command(&folder.join(name), folder).output().unwrap();
     (output.status.success(), String::from_utf8_lossy(&output.stdout).into_owned())
 }
 
@@ -112,6 +122,74 @@ fn a_plain_program_is_compiled_without_a_warning_and_runs() {
     }
 }
 
+/// The control loop with its simulated robot: on random floors, for both drives; an encoder that is too coarse is told of.
+#[test]
+fn the_control_loop_arrives_past_an_obstacle_that_the_map_does_not_know() {
+    let Some([gcc]) = common::programs("the_control_loop", ["gcc"]) else { return };
+    let mut surprised = 0;
+    for (number, lattice) in Lattice::ALL.into_iter().cycle().take(12).enumerate() {
+        let drive = if number % 4 < 2 { Drive::Differential } else { Drive::Steered };
+        let coarse = number >= 8;
+        let ticks_per_rev = if coarse { 0.3 } else { 3.7 * (number + 1) as f64 };
+        let robot = Robot { drive, ticks_per_rev, ..Robot::default() };
+        let map = Map::random(lattice, 24, 20, 0.2, number as u64).unwrap();
+        let folder = common::folder(&format!("robot_{number}"));
+        let (from, to) = long_way(&map).unwrap();
+        let order = Order { map: &map, from, to, robot: &robot, fixed_map: false, command: "" };
+        common::write(&folder, &generate(Language::C, Some(&order)).unwrap().files);
+        let (is_right, said) = example(&gcc, &folder, "robot", "-O2");
+        let expected = if coarse { "NOT RUN" } else { "arrived after" };
+        assert!(is_right && said.contains(expected), "{lattice} {drive:?} {number}: {said}");
+        surprised += usize::from(said.contains(" 1 unknown obstacles"));
+    }
+    assert!(surprised > 5);
+    println!("8 floors: the control loop arrives, on {surprised} past an obstacle that it did not know of");
+}
+
+/// The Makefile and the README of a whole folder: warnings are errors if asked, other flags and changes build anew, what is
+/// missing is told; and the README's examples are C.
+#[test]
+fn make_builds_what_it_should() {
+    let Some([gcc, make]) = common::programs("make_builds", ["gcc", "make"]) else { return };
+    let map = warehouse(Lattice::Hex);
+    let (from, to) = long_way(&map).unwrap();
+    let order = Order { map: &map, from, to, robot: &Robot::default(), fixed_map: false, command: "" };
+    let folder = common::folder("make");
+    let files = generate(Language::C, Some(&order)).unwrap().files;
+    common::write(&folder, &files);
+    let making = |arguments: &[&str]| {
+        let output = common::command(&make, &folder).args(arguments).output().unwrap();
+        let [said, warned] = [&output.stdout, &output.stderr].map(|text| String::from_utf8_lossy(text));
+        (output.status.success(), format!("{said}{warned}"))
+    };
+    let compilations = |said: &str| said.matches(" -o build/").count();
+    for (arguments, expected) in [
+        (&["sim", "STRICT=1", "CC=gcc"][..], 2),
+        (&["sim", "STRICT=1", "CC=gcc"], 0),
+        (&["sim", "CC=gcc", "CFLAGS=-g -O1 -DMINE=1", "LDFLAGS=-Wl,-s"], 2),
+    ] {
+        let (is_right, said) = making(arguments);
+        assert!(is_right && said.contains("\nPASS") && said.contains("robot: arrived"), "{said}");
+        assert_eq!(compilations(&said), expected, "{said}");
+        assert_eq!(said.contains("-DMINE=1"), said.contains("-Wl,-s"));
+        assert_eq!(said.contains("-Werror"), expected == 2 && arguments.contains(&"STRICT=1"));
+    }
+    std::fs::write(folder.join("src/ac_map.c"), "not C\n").unwrap();
+    assert!(!making(&["sim"]).0, "a change builds anew");
+    let (is_right, said) = making(&["sim", "CC=no-such-compiler"]);
+    assert!(!is_right && said.contains("no-such-compiler was not found: install it"), "{said}");
+
+    let readme = &files.iter().find(|file| file.path == "README.md").unwrap().text;
+    let examples: Vec<&str> =
+        readme.split("```c\n").skip(1).map(|text| text.split("```").next().unwrap()).collect();
+    assert_eq!(examples.len(), 2);
+    for text in examples {
+        std::fs::write(folder.join("readme.c"), text).unwrap();
+        let flags = STRICT.iter().filter(|flag| **flag != "-Wmissing-prototypes");
+        common::run(common::command(&gcc, &folder).args(flags).args(["-c", "readme.c"]));
+    }
+}
+
 /// A robot that is there already, on a floor of one cell, and one that has ways shorter than a tick.
 #[test]
 fn an_empty_program_is_firmware_like_any_other() {
@@ -122,6 +200,8 @@ fn an_empty_program_is_firmware_like_any_other() {
             let folder = written(&format!("empty_{name}_{lattice}"), &map, Some(&[]));
             let (is_right, said) = plain(&gcc, &folder, "-O2");
             assert!(is_right && said.contains("program: 0 segments"), "{said}");
+            let (is_right, said) = example(&gcc, &folder, "robot", "-O2");
+            assert!(is_right && said.contains("robot: arrived"), "{said}");
         }
     }
 }
@@ -138,7 +218,7 @@ fn tampered_firmware_is_found() {
         let rules = rules.iter().map(|&(right, wrong)| ("src/ac_rule.c", right, wrong, "ac_decide"));
         let others = [
             ("src/ac_map.c", "0x00000003U", "0x00010003U", "the wave's way"),
-            ("src/ac_wave.c", "first = target.y + 1U", "first = target.y + 3U", "the wave's way"),
+            ("src/ac_wave.c", "wave->first = row;", "wave->first = row + 2U;", "the wave's way"),
             ("src/ac_drive.c", "player->segment += 1U", "player->segment += 2U", "the player"),
         ];
         for (number, (file, right, wrong, what)) in rules.chain(others).enumerate() {

@@ -1,7 +1,9 @@
-# make sim      builds the plain example with the strictest warnings, and runs it: it checks itself
+# make sim      builds the plain examples, and runs them: they check themselves
 # make size     the size of each part on a Cortex-M, if its compiler is there
 # make board    the example for a Cortex-M board, run in QEMU
 # make clean    removes what was built
+#
+# CFLAGS and LDFLAGS are added to ours; with STRICT=1 warnings are errors.
 
 CC       ?= cc
 ARM      ?= arm-none-eabi-
@@ -10,31 +12,45 @@ QEMU     ?= qemu-system-arm
 # CPU and MACHINE: a board on which the map and its wave have room.
 include examples/board.mk
 
-STRICT   := -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wcast-qual \
-            -Wstrict-prototypes -Wmissing-prototypes -Wundef -Werror -Iinclude
-EMBEDDED := $(STRICT) -mcpu=$(CPU) -mthumb -Os -ffreestanding -ffunction-sections
+WARNINGS := -Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wcast-qual \
+            -Wstrict-prototypes -Wmissing-prototypes -Wundef $(if $(filter 1,$(STRICT)),-Werror)
+HOST     := -std=c99 $(WARNINGS) -Iinclude -O2 $(CFLAGS)
+EMBEDDED := -std=c99 $(WARNINGS) -Iinclude -mcpu=$(CPU) -mthumb -Os -ffreestanding -ffunction-sections
 SOURCES  := $(wildcard src/*.c)
 HEADERS  := $(wildcard include/*.h src/*.h examples/*.h)
+# A change of these builds anew, as one of the sources does.
+INPUTS   := $(SOURCES) $(HEADERS) Makefile examples/board.mk build/flags
 
-.PHONY: sim size board clean
+# $(call needs,PROGRAM,PACKAGE): stops with a hint where a program is missing.
+needs = command -v $(1) > /dev/null || { echo "$(1) was not found: install it (Debian: $(2))" >&2; exit 1; }
 
-sim: build/route
-	build/route
+.PHONY: sim size board clean FORCE
 
-build/route: examples/main.c $(SOURCES) $(HEADERS)
+sim: build/main build/robot
+	build/main
+	build/robot
+
+build/main build/robot: build/%: examples/%.c $(INPUTS)
+	@$(call needs,$(firstword $(CC)),gcc)
+	$(CC) $(HOST) $< $(SOURCES) $(LDFLAGS) -o $@
+
+# Written only when compilers or flags are others than the last time.
+build/flags: FORCE
 	@mkdir -p build
-	$(CC) $(STRICT) -O2 examples/main.c $(SOURCES) -o $@
+	@echo '$(CC) $(HOST) $(LDFLAGS) $(ARM) $(EMBEDDED)' | cmp -s - $@ || \
+	    echo '$(CC) $(HOST) $(LDFLAGS) $(ARM) $(EMBEDDED)' > $@
 
-size: $(SOURCES) $(HEADERS)
-	@mkdir -p build
+size: $(INPUTS)
+	@$(call needs,$(ARM)gcc,gcc-arm-none-eabi)
 	cd build && $(ARM)gcc $(EMBEDDED:-Iinclude=-I../include) -c $(SOURCES:%=../%) && $(ARM)size *.o
 
 board: build/board.elf
+	@$(call needs,$(QEMU),qemu-system-arm)
 	$(QEMU) -M $(MACHINE) -nographic -semihosting-config enable=on,target=native -kernel $<
 
-build/board.elf: examples/cortex_m.c examples/startup.c examples/cortex_m.ld $(SOURCES) $(HEADERS)
+build/board.elf: examples/cortex_m.c examples/startup.c examples/cortex_m.ld $(INPUTS)
 	$(if $(TOO_LARGE),$(error no board: $(TOO_LARGE)))
-	@mkdir -p build
+	@$(call needs,$(ARM)gcc,gcc-arm-none-eabi)
 	$(ARM)gcc $(EMBEDDED) -Iexamples -nostdlib -T examples/cortex_m.ld -Wl,--gc-sections \
 	    examples/cortex_m.c examples/startup.c $(SOURCES) -lgcc -o $@
 

@@ -10,7 +10,11 @@
 /** 1 if the condition holds, else 0. */
 static inline uint32_t ac_bit(bool condition)
 {
-    return condition ? (uint32_t)1U : (uint32_t)0U;
+    uint32_t bit = 0U;
+    if (condition) {
+        bit = 1U;
+    }
+    return bit;
 }
 
 #endif

@@ -10,7 +10,8 @@
 #define VACANT 0xFFFFFFFFU
 #define VISITED 1U
 
-bool ac_learning_start(ac_learning *learning, ac_cell target, ac_level *levels, uint32_t capacity)
+bool ac_learning_start(ac_learning *learning, const ac_map *map, ac_cell target, ac_level *levels,
+                       uint32_t capacity)
 {
     const bool is_power = (capacity > 1U) && ((capacity & (capacity - 1U)) == 0U);
     if (is_power) {
@@ -19,10 +20,12 @@ bool ac_learning_start(ac_learning *learning, ac_cell target, ac_level *levels, 
             levels[place].cell = VACANT;
             levels[place].learnt = 0U;
         }
+        learning->map = map;
         learning->levels = levels;
         learning->capacity = capacity;
         learning->used = 0U;
         learning->frontier = 0U;
+        learning->farthest = 0U;
         learning->target = target;
     }
     return is_power;
@@ -53,16 +56,20 @@ static bool see(ac_learning *learning, ac_cell cell)
     if (learning->levels[place].cell == VACANT) {
         is_known = learning->used < (learning->capacity - 1U);
         if (is_known) {
+            const uint32_t distance = ac_distance(cell, learning->target);
             learning->levels[place].cell = ((uint32_t)cell.y << 16U) | cell.x;
             learning->used += 1U;
             learning->frontier += 1U;
+            if (distance > learning->farthest) {
+                learning->farthest = distance;
+            }
         }
     }
     return is_known;
 }
 
 /* Visits a cell: takes it and its free neighbours into the table. False if the table is full. */
-static bool visit(ac_learning *learning, const ac_map *map, ac_cell cell)
+static bool visit(ac_learning *learning, ac_cell cell)
 {
     bool is_known = see(learning, cell);
     if (is_known) {
@@ -71,7 +78,7 @@ static bool visit(ac_learning *learning, const ac_map *map, ac_cell cell)
             ac_move direction;
             for (direction = 0U; direction < AC_DIRECTIONS; ++direction) {
                 const ac_cell next = ac_neighbour(cell, direction);
-                if (ac_is_free(map, next)) {
+                if (ac_is_free(learning->map, next)) {
                     is_known = see(learning, next) ? is_known : false;
                 }
             }
@@ -93,9 +100,9 @@ static uint32_t level_of(const ac_learning *learning, ac_cell cell)
 
 /*
  * The free neighbour of the lowest level, of equals the first in the order of the rule; raises the
- * cell's own level.
+ * cell's own level. AC_UNREACHABLE if that shows that no way leads on.
  */
-static ac_move lowest(ac_learning *learning, const ac_map *map, ac_cell cell)
+static ac_move lowest(ac_learning *learning, ac_cell cell)
 {
     static const uint8_t order[@SECTORS@][AC_DIRECTIONS] = {
 @ORDER@    };
@@ -107,7 +114,7 @@ static ac_move lowest(ac_learning *learning, const ac_map *map, ac_cell cell)
     uint32_t place;
     for (place = 0U; place < AC_DIRECTIONS; ++place) {
         const ac_cell next = ac_neighbour(cell, order[sector][place]);
-        if (ac_is_free(map, next)) {
+        if (ac_is_free(learning->map, next)) {
             const uint32_t level = level_of(learning, next);
             if (level < least) {
                 least = level;
@@ -121,23 +128,30 @@ static ac_move lowest(ac_learning *learning, const ac_map *map, ac_cell cell)
             own->learnt = raised;
         }
     }
+    /*
+     * Levels never exceed the steps to a cell not yet visited and its distance from there: if one does,
+     * there is none that can be reached. Cells that were seen free may have been closed since.
+     */
+    if ((move < AC_DIRECTIONS) && (least >= (learning->used + learning->farthest))) {
+        move = AC_UNREACHABLE;
+    }
     return move;
 }
 
-ac_move ac_learning_step(ac_learning *learning, const ac_map *map, ac_cell cell)
+ac_move ac_learning_step(ac_learning *learning, ac_cell cell)
 {
     ac_move move;
-    if ((cell.x >= map->width) || (cell.y >= map->height)) {
+    if ((cell.x >= learning->map->width) || (cell.y >= learning->map->height)) {
         move = AC_OUTSIDE;
     } else if (ac_distance(cell, learning->target) == 0U) {
         move = AC_ARRIVED;
-    } else if (!visit(learning, map, cell)) {
+    } else if (!visit(learning, cell)) {
         move = AC_FULL;
     } else if (learning->frontier == 0U) {
         /* All cells of the part of the floor where the robot is were visited. */
         move = AC_UNREACHABLE;
     } else {
-        move = lowest(learning, map, cell);
+        move = lowest(learning, cell);
     }
     return move;
 }

@@ -1,6 +1,8 @@
 /*
  * The program M as segments: @COUNT@ straight runs and turns, from @FROM@ to @TO@.
  * @START@
+ *
+@ROBOT@
  */
 #include "activecell.h"
 

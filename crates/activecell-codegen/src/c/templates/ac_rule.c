@@ -47,15 +47,36 @@ ac_cell ac_neighbour(ac_cell cell, ac_move direction)
     return next;
 }
 
+/* The word in which a cell of the map lies, and its place there. */
+static uint32_t word_of(const ac_map *map, ac_cell cell)
+{
+    return (((uint32_t)cell.y + 2U) * map->words) + (((uint32_t)cell.x + 2U) >> 5U);
+}
+
+static uint32_t shift_of(ac_cell cell)
+{
+    return ((uint32_t)cell.x + 2U) & 31U;
+}
+
 bool ac_is_free(const ac_map *map, ac_cell cell)
 {
     bool is_free = false;
     if ((cell.x < map->width) && (cell.y < map->height)) {
-        const uint32_t bit = cell.x + 2U;
-        const uint32_t word = map->rows[((cell.y + 2U) * map->words) + (bit >> 5U)];
-        is_free = ((word >> (bit & 31U)) & 1U) == 0U;
+        const uint32_t word = map->rows[word_of(map, cell)];
+        is_free = ((word >> shift_of(cell)) & 1U) == 0U;
     }
     return is_free;
+}
+
+bool ac_map_set(uint32_t *rows, const ac_map *map, ac_cell cell, bool is_obstacle)
+{
+    const bool is_inside = (cell.x < map->width) && (cell.y < map->height);
+    if (is_inside) {
+        const uint32_t bit = (uint32_t)1U << shift_of(cell);
+        uint32_t *const word = &rows[word_of(map, cell)];
+        *word = is_obstacle ? (*word | bit) : (*word & ~bit);
+    }
+    return is_inside;
 }
 
 /* A cell of a row. */
@@ -87,7 +108,7 @@ ac_move ac_decide(uint32_t window, uint32_t bearing)
         (window >> 8U) & @ONES@,
         (window >> 16U) & @ONES@,
         bearing & AC_SECTOR,
-        bearing & AC_NEAR);
+        ac_bit((bearing & AC_NEAR) != 0U));
     return (outputs.enclosed != 0U) ? AC_ENCLOSED : ac_lane_number(outputs.go);
 }
 
@@ -103,8 +124,9 @@ ac_move ac_next(const ac_map *map, ac_cell cell, ac_cell target)
     return move;
 }
 
-void ac_replay_start(ac_replay *replay, ac_cell from, ac_cell target)
+void ac_replay_start(ac_replay *replay, const ac_map *map, ac_cell from, ac_cell target)
 {
+    replay->map = map;
     replay->cell = from;
     replay->target = target;
     replay->mark = from;
@@ -117,9 +139,9 @@ void ac_replay_start(ac_replay *replay, ac_cell from, ac_cell target)
  * remembered, and another one instead of it after 1, 2, 4, 8, ... steps: R. Brent, An Improved Monte
  * Carlo Factorization Algorithm, BIT 20, 1980.
  */
-ac_move ac_replay_step(ac_replay *replay, const ac_map *map)
+ac_move ac_replay_step(ac_replay *replay)
 {
-    ac_move move = ac_next(map, replay->cell, replay->target);
+    ac_move move = ac_next(replay->map, replay->cell, replay->target);
     if (move < AC_DIRECTIONS) {
         const ac_cell next = ac_neighbour(replay->cell, move);
         if (replay->since == replay->until) {

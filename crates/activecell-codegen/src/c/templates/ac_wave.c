@@ -43,15 +43,16 @@ bool ac_wave_start(ac_wave *wave, const ac_map *map, ac_cell target, uint32_t *m
     const bool is_ready = (words >= ac_wave_words(map)) && ac_is_free(map, target);
     if (is_ready) {
         const uint32_t needed = ac_wave_words(map);
-        const uint32_t bit = target.x + 2U;
+        const uint32_t bit = (uint32_t)target.x + 2U;
+        const uint32_t row = (uint32_t)target.y + 1U;
         uint32_t at;
         uint32_t word;
         wave->map = map;
         wave->memory = memory;
         wave->target = target;
-        wave->first = target.y + 1U;
-        wave->last = target.y + 1U;
-        at = reached_at(wave, target.y + 1U) + (bit >> 5U);
+        wave->first = row;
+        wave->last = row;
+        at = reached_at(wave, row) + (bit >> 5U);
         for (word = 0U; word < needed; ++word) {
             memory[word] = (word == at) ? ((uint32_t)1U << (bit & 31U)) : 0U;
         }
@@ -136,14 +137,15 @@ ac_move ac_wave_next(const ac_wave *wave, ac_cell cell)
     const ac_map *const map = wave->map;
     ac_move move = AC_OUTSIDE;
     if ((cell.x < map->width) && (cell.y < map->height)) {
-        const uint32_t word = (cell.x + 2U) >> 5U;
-        const uint32_t shift = (cell.x + 2U) & 31U;
+        const uint32_t row = (uint32_t)cell.y + 1U;
+        const uint32_t word = ((uint32_t)cell.x + 2U) >> 5U;
+        const uint32_t shift = ((uint32_t)cell.x + 2U) & 31U;
         if (ac_distance(cell, wave->target) == 0U) {
             move = AC_ARRIVED;
-        } else if (((wave->memory[reached_at(wave, cell.y + 1U) + word] >> shift) & 1U) == 0U) {
+        } else if (((wave->memory[reached_at(wave, row) + word] >> shift) & 1U) == 0U) {
             move = AC_UNREACHABLE;
         } else {
-            const uint32_t *const planes = &wave->memory[planes_at(wave, cell.y + 1U) + word];
+            const uint32_t *const planes = &wave->memory[planes_at(wave, row) + word];
             uint32_t plane;
             move = 0U;
             for (plane = 0U; plane < PLANES; ++plane) {

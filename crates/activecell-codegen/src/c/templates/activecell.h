@@ -11,9 +11,34 @@
  *   ac_rule.c      one step of the published rule, and a replay of it that knows when it circles for ever
  *   ac_learning.c  the rule that learns: arrives wherever a way exists, knows only what the robot has seen
  *   ac_wave.c      the wave: shortest ways from every cell to a target
- *   ac_drive.c     the control unit of the motors, and the player of programs
+ *   ac_drive.c     the control unit of the motors, the player of programs, moves from cell to cell
  *   ac_map.c       the map that this was generated from
  *   ac_program.c   the program that this was generated from, and how the robot is set down for it
+ *
+ * Words:
+ *
+ *   lane       the bit of a word that stands for one neighbour: bit i for direction i
+ *   window     the obstacles around a cell: three groups of lanes in one word
+ *   bearing    where the target lies: its sector, and whether it is a neighbour
+ *   sector     the direction of the target, or the space between two directions; not its distance
+ *   calm       the motors are off and the robot waits; stopped: they are off, for it has arrived
+ *   program M  a way as straight runs and turns; the paper calls it M
+ *
+ * Contracts:
+ *
+ *   Interrupts  Functions may interrupt each other if they work on distinct objects, never on the same
+ *               one. Count pulses in the interrupt, and hand their number over in the loop.
+ *   Lifetime    What is given to a start function (map, memory, levels, segments) is not copied: it
+ *               must last as long as the object is used. Nobody else writes to memory and levels.
+ *   Checked     Cells against the map, sizes of memory and tables, numbers that are no directions. Not
+ *               checked are pointers, the numbers in an ac_map, and whether an object was started:
+ *               if its start returned false, it was not.
+ *   Changes     ac_map_set may close cells while the rule that learns runs. For the wave and the
+ *               replay, and where a cell becomes free, start anew after a change.
+ *   Time        ac_wave_flood takes long on large maps; ac_wave_spread makes one step of it. Both
+ *               ..._start of wave and learning clear their memory. All other calls are short.
+ *   Stack       All functions together have frames of less than @STACK@ bytes on a Cortex-M; none calls
+ *               itself.
  */
 #ifndef ACTIVECELL_H
 #define ACTIVECELL_H
@@ -27,7 +52,7 @@ extern "C" {
 
 /* ---- Cells, maps, moves ---- */
 
-/** A cell: column and row, in one word. */
+/** A cell: column and row, in one word, which is passed in a register. */
 typedef struct {
     uint32_t x : 16;
     uint32_t y : 16;
@@ -70,21 +95,29 @@ uint32_t ac_distance(ac_cell from, ac_cell to);
 /** Whether a cell lies on the map and is no obstacle. */
 bool ac_is_free(const ac_map *map, ac_cell cell);
 
+/**
+ * Makes a cell an obstacle, or free. The rows are those of the map, where they lie in RAM. False, and
+ * nothing done, if the cell lies outside the map.
+ */
+bool ac_map_set(uint32_t *rows, const ac_map *map, ac_cell cell, bool is_obstacle);
+
 /* ---- The published rule ---- */
 
 /**
- * Where the target lies: one of @SECTORS@ sectors, clockwise from the top, and AC_NEAR if it is a
- * neighbour. Without meaning at the target itself.
+ * Where the target lies: its sector, and AC_NEAR if it is a neighbour. Without meaning at the target
+ * itself.
+ *
+ * @SECTOR_ORDER@
  */
 uint32_t ac_bearing(ac_cell from, ac_cell target);
 
 #define AC_SECTOR @SECTOR_BITS@U /**< The bits of a bearing that are the sector. */
-#define AC_NEAR 16U /**< The bit that says that the target is a neighbour. */
+#define AC_NEAR 16U /**< A flag of a bearing: the target is a neighbour. */
 
 /**
- * The obstacles around a cell of the map, a lane a neighbour: lanes 0 to @LAST@ the neighbours, lanes 8
- * to @LAST_AHEAD@ the cells straight ahead of them, lanes 16 to @LAST_BETWEEN@ those between each and
- * the next one clockwise.
+ * The obstacles around a cell, a lane a neighbour: lanes 0 to @LAST@ the neighbours, lanes 8 to
+ * @LAST_AHEAD@ the cells straight ahead of them, lanes 16 to @LAST_BETWEEN@ those between each and the
+ * next one clockwise. The cell must lie on the map: that is not checked.
  */
 uint32_t ac_window(const ac_map *map, ac_cell cell);
 
@@ -102,6 +135,7 @@ ac_move ac_next(const ac_map *map, ac_cell cell, ac_cell target);
 
 /** A replay of the published rule. */
 typedef struct {
+    const ac_map *map;
     ac_cell cell;   /**< Where the robot is. */
     ac_cell target; /**< Where it wants to be. */
     ac_cell mark;   /**< A cell where it was; there again, it circles. */
@@ -110,13 +144,13 @@ typedef struct {
 } ac_replay;
 
 /** At the start. */
-void ac_replay_start(ac_replay *replay, ac_cell from, ac_cell target);
+void ac_replay_start(ac_replay *replay, const ac_map *map, ac_cell from, ac_cell target);
 
 /**
  * One step, which is made at once: a direction, or AC_ARRIVED, AC_ENCLOSED, AC_OUTSIDE, AC_TRAPPED.
  * When trapped the robot stays, and `since` + 1 is the number of cells in which it would circle.
  */
-ac_move ac_replay_step(ac_replay *replay, const ac_map *map);
+ac_move ac_replay_step(ac_replay *replay);
 
 /* ---- The rule that learns ---- */
 
@@ -128,10 +162,12 @@ typedef struct {
 
 /** What a robot has learnt on its way to its target. */
 typedef struct {
+    const ac_map *map;
     ac_level *levels;  /**< The caller's table. */
     uint32_t capacity; /**< Its entries. */
     uint32_t used;     /**< Entries that are not vacant. */
     uint32_t frontier; /**< Cells that were seen free and not yet visited. */
+    uint32_t farthest; /**< Of the cells seen, how far the farthest is from the target. */
     ac_cell target;
 } ac_learning;
 
@@ -139,21 +175,29 @@ typedef struct {
  * Nothing learnt yet. The table has `capacity` entries, a power of two from 2 on; false, and nothing
  * done, if it has not. Each visited cell and each free neighbour of one takes an entry; one entry stays
  * vacant. Takes time proportional to the capacity.
+ *
+ * The fuller the table, the longer a step: to find a cell takes about 2 looks on average if half of the
+ * entries are taken, 9 at three quarters; at worst as many as entries are taken. With AC_FLOOR_LEVELS
+ * entries at most three quarters are.
  */
-bool ac_learning_start(ac_learning *learning, ac_cell target, ac_level *levels, uint32_t capacity);
+bool ac_learning_start(ac_learning *learning, const ac_map *map, ac_cell target, ac_level *levels,
+                       uint32_t capacity);
 
 /**
  * One step from a free cell of the map: raises its level and says where to move. A direction, or
  * AC_ARRIVED, AC_UNREACHABLE, AC_OUTSIDE, or AC_FULL: the table is full, the robot stays, and whether a
  * way exists is not known.
+ *
+ * A robot that finds an obstacle in its way stays where it is, closes that cell of the map, and calls
+ * this again. Where a cell becomes free instead, AC_UNREACHABLE may be said too early: start anew.
  */
-ac_move ac_learning_step(ac_learning *learning, const ac_map *map, ac_cell cell);
+ac_move ac_learning_step(ac_learning *learning, ac_cell cell);
 
 /* ---- The wave ---- */
 
 /**
  * A wave that spreads from a target over the map, and the first direction of a shortest way from each
- * cell.
+ * cell. After a change of the map start it anew.
  */
 typedef struct {
     const ac_map *map;
@@ -170,8 +214,8 @@ typedef struct {
 uint32_t ac_wave_words(const ac_map *map);
 
 /**
- * Reaches the target. False, and nothing done, if there are fewer words of memory than it needs, or the
- * target is not free. Takes time proportional to the memory.
+ * Reaches the target. False, and nothing done, if there are fewer words of memory than ac_wave_words,
+ * or ac_is_free says no of the target. Takes time proportional to the memory.
  */
 bool ac_wave_start(ac_wave *wave, const ac_map *map, ac_cell target, uint32_t *memory, uint32_t words);
 
@@ -203,7 +247,12 @@ ac_move ac_wave_next(const ac_wave *wave, ac_cell cell);
 #define AC_OUT_LEFT 4U
 #define AC_OUT_RIGHT 8U
 
-/** The state that follows on these inputs. */
+/*
+ * What the outputs ask of the motors. Reverse is q2 and q3 without q1.
+ *
+@STATE_TABLE@ */
+
+/** The state that follows on these inputs. Numbers that are no states act as calm. */
 uint32_t ac_control_step(uint32_t state, uint32_t inputs);
 
 /** The outputs of a state. */
@@ -223,7 +272,7 @@ typedef struct {
 typedef struct {
     const ac_segment *segments;
     uint32_t count;   /**< How many. */
-    uint32_t segment; /**< The one that it is in; `count` when the program has ended. */
+    uint32_t segment; /**< The one that it is in; `count` after the last tick. */
     uint32_t ticks;   /**< Of that segment. */
     uint32_t state;   /**< Of the control unit. */
 } ac_player;
@@ -232,22 +281,58 @@ typedef struct {
 void ac_player_start(ac_player *player, const ac_segment *segments, uint32_t count);
 
 /**
- * One clock: gives the outputs q0 to q3 that follow. Call it at least once for each tick; a call counts
- * one tick at most.
+ * One clock: gives the outputs q0 to q3 for the motors. Call it from a timer, also when no tick came:
+ * else a robot that waits would never start, and one that has arrived never stop.
  *
- * In runs, and in turns of a robot whose wheels turn it (differential drive), a tick is one of the
- * wheels' encoders, the mean of both: with an encoder on each wheel every second pulse of the two. The
- * wheels of a steered robot do not roll while it turns: in its turns a tick is a pulse of the steering,
- * one for each step of the lattice, @STEP_DEG@ degrees.
+ * In runs, and in turns of a robot whose wheels turn it (differential drive), a tick is one of the mean
+ * of both wheels: of the absolute counts of their encoders, for in a turn on the spot the wheels roll
+ * against each other. With an encoder on each wheel a tick is every second pulse of the two, whatever
+ * their directions. The wheels of a steered robot do not roll while it turns: in its turns a tick is a
+ * pulse of the steering, one for each step of the lattice, @STEP_DEG@ degrees.
  *
- * The robot waits without `go`, and while the obstacle flag (AC_IN_RIGHT, AC_IN_LEFT, AC_IN_FRONT,
- * AC_IN_BEHIND) of the segment's direction is set. Every tick counts, for what a robot rolls while it
- * brakes must not be driven twice. After the last tick it is stopped, then calm.
+ * The robot waits without `go`, with AC_IN_STOP among the obstacles, and while the flag (AC_IN_RIGHT,
+ * AC_IN_LEFT, AC_IN_FRONT, AC_IN_BEHIND) of the segment's direction is set; other flags do not count.
+ * After the last tick it is stopped, then calm.
+ *
+ * This is dead reckoning, with its limits. Every tick counts, also while the robot waits, for what it
+ * rolls while it brakes must not be driven twice: so do not push it. The motors obey at the call after
+ * the last tick of a run or turn: call it more often than ticks come. What the robot rolls on then
+ * counts for the next run or turn, after the last one for none.
  */
 uint32_t ac_player_clock(ac_player *player, bool go, bool tick, uint32_t obstacles);
 
-/** Whether the program has ended. */
+/** As many clocks as ticks came since the last call, but at least one: gives the last one's outputs. */
+uint32_t ac_player_advance(ac_player *player, bool go, uint32_t ticks, uint32_t obstacles);
+
+/**
+ * Whether the program has ended and the motors were put off. So this loop is right:
+ *
+ *     while (!ac_player_is_done(&player)) {
+ *         motors(ac_player_advance(&player, go(), ticks(), obstacles()));
+ *     }
+ *
+ * The hardware's `done` comes a clock earlier, with the last tick, when the motors are still on.
+ */
 bool ac_player_is_done(const ac_player *player);
+
+/* ---- From cell to cell ---- */
+
+/** Where a robot faces that drives by moves, and the fractions of ticks that are carried on. */
+typedef struct {
+    ac_move heading; /**< A direction. */
+    uint32_t run;    /**< Of runs, in 1/256 of a tick. */
+    uint32_t turn;   /**< Of turns. */
+} ac_course;
+
+/** At the start. */
+void ac_course_start(ac_course *course, ac_move heading);
+
+/**
+ * A move as segments for the player: a turn, by the shorter side, if the robot faces elsewhere, and a
+ * run of a cell. Gives their number, at most 2; none for words that are no directions. Ticks are those
+ * of the robot that this was generated for.
+ */
+uint32_t ac_course_move(ac_course *course, ac_segment *segments, ac_move move);
 
 /* ---- What this was generated from ---- */
 
@@ -255,6 +340,10 @@ bool ac_player_is_done(const ac_player *player);
 /** The map. */
 extern const ac_map ac_floor;
 
+/* The robot, and the floor in its ticks. */
+#define AC_DRIVE_STEERED 0U      /**< The wheels turn, the body does not. */
+#define AC_DRIVE_DIFFERENTIAL 1U /**< The wheels roll against each other and turn the body. */
+@UNITS@
 /** The sum over decisions of ac_decide that examples/main.c compares. */
 #define AC_RULE_CHECKSUM @CHECKSUM@
 

@@ -1,7 +1,7 @@
 /* Where the centre of a cell lies, in half cells: odd rows are shifted right. */
 static uint32_t centre(ac_cell cell)
 {
-    return (2U * cell.x) + (cell.y & 1U);
+    return (2U * (uint32_t)cell.x) + ((uint32_t)cell.y & 1U);
 }
 
 /* The steps that cover so many half cells across and so many rows down. */

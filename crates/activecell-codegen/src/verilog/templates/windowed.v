@@ -73,7 +73,7 @@ module windowed_@LATTICE@ #(
     wire [@TOP@:0] decided;
     wire       is_enclosed;
     decide_@LATTICE@ decision (
-        .ring1(ring1), .ahead(ahead), .between(between), .sector(sector), .near(is_near),
+        .ring1(ring1), .ahead(ahead), .between(between), .sector(sector), .is_near(is_near),
         .go(decided), .enclosed(is_enclosed)
     );
 

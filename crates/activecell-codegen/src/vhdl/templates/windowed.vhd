@@ -110,7 +110,7 @@ begin
 
     decision : entity work.decide_@LATTICE@
         port map (
-            ring1 => ring1, ahead => ahead, between => between, sector => sector, near => is_near,
+            ring1 => ring1, ahead => ahead, between => between, sector => sector, is_near => is_near,
             go => decided, enclosed => is_enclosed
         );
 

@@ -1,5 +1,5 @@
 /*
- * A Cortex-M board: the wave's way for the task of the program M, written through semihosting.
+ * A Cortex-M board: a shortest way for the task of the program M, written through semihosting.
  *
  *   arm-none-eabi-gcc -mcpu=@CPU@ -mthumb -std=c99 -Os -ffreestanding -nostdlib \
  *       -Iinclude -Iexamples -T examples/cortex_m.ld examples/cortex_m.c examples/startup.c src/ac_*.c \
@@ -41,6 +41,6 @@ int main(void)
     }
     write_cell(cell);
     is_right = (move == AC_ARRIVED) && (steps == AC_PROGRAM_STEPS);
-    host_write(is_right ? " arrived\n" : "\nFAIL: the wave's way is not the way of the program\n");
+    host_write(is_right ? " arrived\n" : "\nFAIL: the wave's way is not as long as the program's\n");
     return is_right ? 0 : 1;
 }

@@ -20,7 +20,7 @@ static const char *word(ac_move move)
 /* A checksum (FNV-1a) of the rule's decisions on 65,536 inputs: on squares there are no others. */
 static uint32_t decisions(void)
 {
-    const uint32_t ones = (1U << AC_DIRECTIONS) - 1U;
+    const uint32_t ones = ((uint32_t)1U << AC_DIRECTIONS) - 1U;
     uint32_t sum = 2166136261U;
     uint32_t number;
     for (number = 0U; number < 65536U; ++number) {
@@ -64,13 +64,13 @@ static bool learn(ac_cell from, ac_cell target)
     ac_cell cell = from;
     unsigned long steps = 0UL;
     ac_move move = AC_FULL;
-    if (ac_learning_start(&learning, target, levels, AC_FLOOR_LEVELS)) {
-        move = ac_learning_step(&learning, &ac_floor, cell);
+    if (ac_learning_start(&learning, &ac_floor, target, levels, AC_FLOOR_LEVELS)) {
+        move = ac_learning_step(&learning, cell);
     }
     while (move < AC_DIRECTIONS) {
         cell = ac_neighbour(cell, move);
         ++steps;
-        move = ac_learning_step(&learning, &ac_floor, cell);
+        move = ac_learning_step(&learning, cell);
     }
     printf("learning: %s after %lu steps\n", word(move), steps);
     return move == AC_ARRIVED;
@@ -82,35 +82,35 @@ static void replay(ac_cell from, ac_cell target)
     ac_replay robot;
     unsigned long steps = 0UL;
     ac_move move;
-    ac_replay_start(&robot, from, target);
-    move = ac_replay_step(&robot, &ac_floor);
+    ac_replay_start(&robot, &ac_floor, from, target);
+    move = ac_replay_step(&robot);
     while (move < AC_DIRECTIONS) {
         ++steps;
-        move = ac_replay_step(&robot, &ac_floor);
+        move = ac_replay_step(&robot);
     }
     printf("published: %s after %lu steps\n", word(move), steps);
 }
 
-/* Whether the robot moves for every tick of the program M, and rests behind the last. */
+/* Whether the robot moves until the last tick of the program M, and rests once it is done. */
 static bool play(void)
 {
     const uint32_t moves = AC_OUT_DRIVE | AC_OUT_LEFT | AC_OUT_RIGHT;
+    uint32_t outputs = AC_OUT_CALM;
     bool is_right = true;
     ac_player player;
     uint32_t segment;
     ac_player_start(&player, ac_program, AC_PROGRAM_COUNT);
     for (segment = 0U; segment < player.count; ++segment) {
-        uint32_t tick;
-        for (tick = 0U; tick < ac_program[segment].ticks; ++tick) {
-            const bool is_early = ac_player_is_done(&player);
-            const uint32_t outputs = ac_player_clock(&player, true, true, 0U);
-            is_right = is_right && !is_early && ((outputs & moves) != 0U);
-        }
+        is_right = is_right && (player.segment == segment) && (player.ticks == 0U);
+        outputs = ac_player_advance(&player, true, ac_program[segment].ticks, 0U);
+        is_right = is_right && ((outputs & moves) != 0U);
     }
-    is_right = is_right && ac_player_is_done(&player);
-    is_right = is_right && ((ac_player_clock(&player, true, false, 0U) & moves) == 0U);
+    is_right = is_right && (ac_player_is_done(&player) == (player.count == 0U));
+    while (!ac_player_is_done(&player)) {
+        outputs = ac_player_advance(&player, true, 0U, 0U);
+    }
     printf("program: %lu segments played\n", (unsigned long)AC_PROGRAM_COUNT);
-    return is_right;
+    return is_right && (player.segment == player.count) && ((outputs & moves) == 0U);
 }
 
 static bool check(bool is_right, const char *what)
@@ -126,12 +126,12 @@ int main(void)
     const ac_cell from = { AC_PROGRAM_FROM_X, AC_PROGRAM_FROM_Y };
     const ac_cell target = { AC_PROGRAM_TO_X, AC_PROGRAM_TO_Y };
     bool is_right = check(decisions() == AC_RULE_CHECKSUM, "ac_decide is not the rule that was generated");
-    is_right = check(follow_wave(from, target), "the wave's way is not the way of the program") && is_right;
+    is_right = check(follow_wave(from, target), "the wave's way is not as long as the program's") && is_right;
     is_right = check(learn(from, target), "the rule that learns does not arrive") && is_right;
     replay(from, target);
     is_right = check(play(), "the player does not play the program to its end") && is_right;
     if (is_right) {
-        printf("PASS: rule, wave and program are those that were generated\n");
+        printf("PASS: rule, ways and program are those that were generated\n");
     }
     return is_right ? 0 : 1;
 }

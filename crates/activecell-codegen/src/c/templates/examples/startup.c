@@ -3,12 +3,13 @@
  */
 #include "startup.h"
 
-extern uint32_t stack_top;
-extern uint32_t data_load;
-extern uint32_t data_start;
-extern uint32_t data_end;
-extern uint32_t bss_start;
-extern uint32_t bss_end;
+/* Of the linker: addresses, as cortex_m.ld sets them. */
+extern uint32_t stack_top[];
+extern uint32_t data_load[];
+extern uint32_t data_start[];
+extern uint32_t data_end[];
+extern uint32_t bss_start[];
+extern uint32_t bss_end[];
 
 int main(void);
 void reset(void);
@@ -58,13 +59,13 @@ void host_exit(int32_t code)
 
 void reset(void)
 {
-    const volatile uint32_t *from = &data_load;
+    const volatile uint32_t *from = data_load;
     volatile uint32_t *to;
-    for (to = &data_start; to < &data_end; ++to) {
+    for (to = data_start; to < data_end; ++to) {
         *to = *from;
         ++from;
     }
-    for (to = &bss_start; to < &bss_end; ++to) {
+    for (to = bss_start; to < bss_end; ++to) {
         *to = 0U;
     }
     host_exit(main());
@@ -85,7 +86,7 @@ extern const vector_table vectors;
 
 /* Reset, NMI, hard fault and the other exceptions of the core; a board's own interrupts follow. */
 const vector_table vectors __attribute__((section(".vectors"), used)) = {
-    &stack_top,
+    stack_top,
     { reset, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault, fault,
       fault },
 };
