@@ -8,7 +8,7 @@ use activecell::{BitPlane, Cell, Lattice, Map, Rng};
 use activecell_codegen::model::fabric::{Fabric, Inputs, Outputs};
 use activecell_codegen::{long_way, verilog};
 use common::aig::{Aig, aig};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 const INPUTS: [&str; 8] =
     ["reset", "load_map", "scan_in", "begin_task", "start_x", "start_y", "target_x", "target_y"];
@@ -226,7 +226,7 @@ fn the_fabric_that_loads_its_map_does_as_the_model() {
     println!("fabric_top: 6 maps, 4000 clocks each as the model, which is loaded beside it");
 }
 
-/// The example drives the way of the core, in both kinds, and compilers take all files as SystemVerilog too.
+/// The example drives the way of the core, in both kinds, and compilers take all files as `SystemVerilog` too.
 #[test]
 fn the_example_drives_a_shortest_way() {
     let Some([iverilog, vvp]) = common::programs("fabric_example", ["iverilog", "vvp"]) else { return };
@@ -441,7 +441,9 @@ fn the_bench_passes_and_sees_a_wrong_trace() {
                 std::fs::create_dir_all(path.parent().unwrap()).unwrap();
                 std::fs::write(path, &file.text).unwrap();
             }
-            let is_source = |path: &&str| path.ends_with(".v") && !path.contains("example");
+            let is_source = |path: &&str| {
+                Path::new(path).extension().is_some_and(|end| end == "v") && !path.contains("example")
+            };
             let sources: Vec<&str> = files.iter().map(|file| file.path.as_str()).filter(is_source).collect();
             common::run(
                 common::command(&iverilog, &folder)

@@ -178,7 +178,7 @@ fn designs(
     if cells <= most {
         designs.push(Design {
             name: "fabric",
-            top: "fabric".into(),
+            top: if fixed_map { "fabric" } else { "fabric_top" }.into(),
             files: if is_vhdl { vhdl::fabric(map, !fixed_map)? } else { verilog::fabric(map, !fixed_map)? },
             sizes: size::fabric(map, fixed_map),
         });

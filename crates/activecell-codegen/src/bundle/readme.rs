@@ -83,7 +83,7 @@ fn navigators(order: &Order<'_>, parts: &Parts) -> String {
     let map = if order.fixed_map {
         "The map is wired in: another one needs another bit stream."
     } else {
-        "The map is loaded through `load_map` and `scan_in`, cell by cell."
+        "After a reset `fabric_top` loads its map, a cell a clock; `fabric` alone\n  takes any map that way, through `load_map` and `scan_in`, and says `unreachable` before."
     };
     text.replace("@FABRIC_MAP@", map)
 }
