@@ -459,7 +459,9 @@ mod tests {
             })
             .collect();
         for example in &examples {
-            let arguments = example.split_whitespace().map(|word| match word {
+            let words: Vec<&str> = example.split_whitespace().collect();
+            let arguments = words.iter().enumerate().map(|(place, &word)| match word {
+                output if place > 0 && words[place - 1] == "-o" => folder.join(output).display().to_string(),
                 path if ["maps/", "logs/"].iter().any(|top| path.starts_with(top)) => {
                     format!("{project}/{path}")
                 }
