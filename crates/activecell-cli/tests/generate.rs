@@ -22,7 +22,7 @@ fn make(test: &str, folder: &Path, target: &str, programs: &[&str]) -> Option<St
         eprintln!("NOT RUN: {test}: make {target} needs {missing}; `make deps` installs it");
         return None;
     }
-    let output = Command::new("make").arg(target).current_dir(folder).output().unwrap();
+    let output = Command::new("make").args([target, "STRICT=1"]).current_dir(folder).output().unwrap();
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{target}: {said}{}", String::from_utf8_lossy(&output.stderr));
     Some(said)

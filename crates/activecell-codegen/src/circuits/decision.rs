@@ -41,7 +41,7 @@ pub fn decision(lattice: Lattice) -> Circuit {
     let vacant = circuit.wire("vacant", not(Expr::Signal(ring1)), "neighbours without an obstacle");
     let left = circuit.wire("left_of", Expr::FromLeft(between), "obstacles to the left of each neighbour");
     let closed = closed(&mut circuit, &table, [left, ahead, between], sector);
-    let never = Expr::And(vec![
+    let target = Expr::And(vec![
         Expr::Signal(is_first),
         Expr::Select(
             Box::new(Expr::Signal(near)),
@@ -49,7 +49,7 @@ pub fn decision(lattice: Lattice) -> Circuit {
             Box::new(Expr::Const { width: lanes, value: 0 }),
         ),
     ]);
-    let target = circuit.wire("is_target", never, "the target itself is never closed");
+    let target = circuit.wire("is_target", target, "the target itself is never closed");
     let permitted = Expr::And(vec![
         Expr::Signal(vacant),
         Expr::Or(vec![not(Expr::Signal(closed)), Expr::Signal(target)]),
