@@ -127,7 +127,8 @@ def firmware() -> str:
     said = done.stdout + done.stderr
     if done.returncode != 0 or "NOT RUN" in said:
         raise SystemExit(f"hardware: the tests of the firmware did not run (make deps?):\n{said[-2000:]}")
-    kept = sorted(line.strip() for line in said.splitlines())
+    # The dots that tell of tests stand before some of the lines.
+    kept = sorted(line.strip(". ") for line in said.splitlines())
     bytes_of, instructions = (board_table(kept, measured) for measured in ("bytes of", "instructions"))
     rest = "".join(f"- {line}\n" for line in kept if re.match(r"(square|hex): .*(MISRA|ns)", line))
     return f"Bytes of code, and of the map of 64 x 64:\n\n{bytes_of}\nInstructions, mean:\n\n{instructions}\n{rest}"

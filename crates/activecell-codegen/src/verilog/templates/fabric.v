@@ -2,8 +2,8 @@
 `default_nettype none
 
 module fabric #(
-@SIZE_PARAMETERS@    parameter COLUMN_BITS = @COLUMN_BITS@,    // enough for WIDTH - 1
-    parameter ROW_BITS = @ROW_BITS@        // enough for HEIGHT - 1
+@SIZE_PARAMETERS@    parameter COLUMN_BITS = @COLUMN_BITS@, // enough for WIDTH - 1
+    parameter ROW_BITS = @ROW_BITS@ // enough for HEIGHT - 1
 ) (
     input  wire                   clk,
     input  wire                   reset,       // active high; ends any task, begins none; needed at first

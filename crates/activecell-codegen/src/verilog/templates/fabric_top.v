@@ -8,15 +8,15 @@ module fabric_top (
     input  wire        clk,
     input  wire        reset,       // active high; ends any task, loads the map anew; needed at first
     input  wire        begin_task,  // for one clock: a task begins, in place of any other
-    input  wire [@COLUMN_TOP@:0] start_x,     // column and row where the robot is, taken with begin_task
-    input  wire [@ROW_TOP@:0] start_y,
-    input  wire [@COLUMN_TOP@:0] target_x,    // where it is to go; an obstacle, or outside: unreachable
-    input  wire [@ROW_TOP@:0] target_y,
+    input  wire [@COLUMN_TOP@:0]  start_x,     // column and row where the robot is, taken with begin_task
+    input  wire [@ROW_TOP@:0]  start_y,
+    input  wire [@COLUMN_TOP@:0]  target_x,    // where it is to go; an obstacle, or outside: unreachable
+    input  wire [@ROW_TOP@:0]  target_y,
     output reg         loading,     // the map is being loaded
     output wire        busy,        // a task is being done
     output wire        moving,      // at_x, at_y are a cell of the way
-    output wire [@COLUMN_TOP@:0] at_x,        // while moving one cell of the way a clock: first the start,
-    output wire [@ROW_TOP@:0] at_y,        //   last the target, where they stay
+    output wire [@COLUMN_TOP@:0]  at_x,        // while moving one cell of the way a clock: first the start,
+    output wire [@ROW_TOP@:0]  at_y,        //   last the target, where they stay
     output wire        arrived,     // the task is done: the way was shown to its end
     output wire        unreachable  // the task is done: no way leads to the target
 );
