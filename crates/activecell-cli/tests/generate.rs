@@ -56,6 +56,16 @@ fn every_folder_simulates() {
                 } else {
                     assert_eq!(said.matches("PASS").count(), 3, "{said}");
                 }
+                if language == "verilog" {
+                    let compile = "iverilog -g2012 -Wall -Wno-timescale -o build/all.vvp rtl/*.v tb/*.v";
+                    let output =
+                        Command::new("sh").args(["-c", compile]).current_dir(path.join(&out)).output();
+                    let said = String::from_utf8(output.unwrap().stderr).unwrap();
+                    assert_eq!(said, "", "as SystemVerilog, whose words are more");
+                }
+                if language != "c" {
+                    assert!(make("every_folder_simulates", &path.join(&out), "example", programs).is_some());
+                }
                 println!("{out}: make sim passes");
             }
         }

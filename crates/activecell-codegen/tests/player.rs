@@ -297,7 +297,7 @@ const FAULTS: [(&str, &str, &str, Drive); 6] = [
     ("rtl/player_top.v", "STEERED != 0 && turning", "turning", Drive::Differential),
     ("rtl/player_top.v", "STEERED != 0 && turning", "1'b0", Drive::Steered),
     ("rtl/player_top.v", "shown <= {ended, q}", "shown <= {ended, q[3:2], q[0], q[1]}", Drive::Steered),
-    ("rtl/encoder_edge.v", "settled & ~before", "settled", Drive::Differential),
+    ("rtl/encoder_edge.v", "settled & ~earlier", "settled", Drive::Differential),
 ];
 
 #[test]

@@ -13,13 +13,15 @@ pub(super) fn readme(language: Language, order: Option<&Order<'_>>, parts: &Part
         (Language::Verilog | Language::Vhdl, Some(_)) => include_str!("templates/hardware.md"),
         (_, None) => include_str!("templates/rules.md"),
     };
-    let language = match language {
+    let name = match language {
         Language::C => "C99",
         Language::Verilog => "Verilog-2005",
         Language::Vhdl => "VHDL-93",
     };
     let mut values = vec![
-        ("LANGUAGE", language.to_owned()),
+        ("LANGUAGE", name.to_owned()),
+        ("VERSION", env!("CARGO_PKG_VERSION").to_owned()),
+        ("OUTPUTS", robot::outputs()),
         ("FILES", table(&parts.files)),
         ("DESIGNS", parts.designs.iter().map(design).collect::<Vec<_>>().concat()),
         ("SIZES", parts.sizes.iter().map(size).collect::<Vec<_>>().concat()),
@@ -27,29 +29,36 @@ pub(super) fn readme(language: Language, order: Option<&Order<'_>>, parts: &Part
     let mut text = template.to_owned();
     if let Some(order) = order {
         text = text.replace("@NAVIGATORS@", &navigators(order, parts)).replace("@ROBOT@", ROBOT);
-        values.extend(facts(order, parts));
+        values.extend(facts(language, order, parts));
     }
+    let text = text.replace("@OUTPUT_TABLE@", include_str!("templates/outputs.md"));
     SourceFile::new("README.md", fill(&text, &values))
 }
 
 const ROBOT: &str = include_str!("templates/robot.md");
 
 /// What depends on the map, the task and the robot.
-fn facts(order: &Order<'_>, parts: &Parts) -> Vec<(&'static str, String)> {
+fn facts(language: Language, order: &Order<'_>, parts: &Parts) -> Vec<(&'static str, String)> {
     let lattice = order.map.lattice();
     let lanes = lattice.dirs().map(|dir| format!("{} {}", dir.0, lattice.dir_name(dir)));
+    let images = if language == Language::Verilog {
+        "Simulate and synthesise in this folder: images of memories (`.hex`) are found by paths that begin here; the parameters \
+         `IMAGES`\nand `IMAGE` name others."
+    } else {
+        "Run the test benches in this folder: their traces (`.hex`) are found by paths that begin here. The sources need no files."
+    };
     let (cells, odd_rows) = match lattice {
         Lattice::Square => ("squares", ""),
         Lattice::Hex => ("hexagons", " Odd rows lie half a cell further right."),
     };
     vec![
         ("MADE", made(order, cells)),
+        ("IMAGES", images.to_owned()),
         ("TASK", format!("{} to {}", order.from, order.to)),
         ("FACING", parts.facing.map_or_else(String::new, |name| format!(" and faces {name}"))),
         ("LANES", lanes.collect::<Vec<_>>().join(", ")),
         ("ODD_ROWS", odd_rows.to_owned()),
         ("ROBOT_TABLE", robot::robot(order)),
-        ("OUTPUTS", robot::outputs()),
     ]
 }
 
@@ -108,9 +117,9 @@ fn table(files: &[SourceFile]) -> String {
     let rows: String = files.iter().filter(|file| !is_image(file)).map(row).collect::<Vec<_>>().concat();
     match files.iter().filter(is_image).count() {
         0 => rows,
-        images => format!(
-            "{rows}| {images} files `*.hex` | what the memories hold, and what the test benches expect |\n"
-        ),
+        images => {
+            format!("{rows}| {images} files `*.hex` | images of memories and traces of the test benches |\n")
+        }
     }
 }
 

@@ -14,7 +14,9 @@ pub(super) fn robot(order: &Order<'_>) -> String {
         if *robot == Robot::default() { "the default robot; `--robot FILE` takes yours" } else { "yours" };
     let drive = match robot.drive {
         Drive::Differential => "differential: two wheels, which turn the robot by rolling against each other",
-        Drive::Steered => "steered: wheels roll in runs only, a motor of its own turns them",
+        Drive::Steered => {
+            "steered: wheels roll in runs only, a motor of its own turns them; front, left and right are theirs, and sensors turn with them"
+        }
     };
     let of_turns = match robot.drive {
         Drive::Differential => "ticks",
@@ -24,7 +26,13 @@ pub(super) fn robot(order: &Order<'_>) -> String {
         ("robot", whose.to_owned()),
         ("drive", drive.to_owned()),
         ("wheel perimeter", format!("{} m", robot.wheel_perimeter_m)),
-        ("encoder ticks in a revolution", format!("{}", robot.ticks_per_rev)),
+        (
+            "ticks in a revolution",
+            format!(
+                "{}, as they are counted: in hardware the rising edges of channel A",
+                robot.ticks_per_rev
+            ),
+        ),
         ("between the wheels", format!("{} m", robot.track_m)),
         ("a run to the next cell", format!("{:.4} m, {:.1} ticks", scale.step_m, scale.step_ticks)),
         ("a turn to the next direction", format!("{}°, {:.1} {of_turns}", scale.turn_deg, scale.turn_ticks)),
@@ -37,7 +45,7 @@ pub(super) fn outputs() -> String {
     let row = |state: State| {
         let [q0, q1, q2, q3] = state.outputs().map(u8::from);
         let [left, right, steered, when] = motors(state);
-        format!("| {} | {q3}{q2}{q1}{q0} | {left} | {right} | {steered} | {when} |\n", state.name())
+        format!("| {} | {q0} {q1} {q2} {q3} | {left} | {right} | {steered} | {when} |\n", state.name())
     };
     State::ALL.map(row).concat()
 }

@@ -26,8 +26,8 @@ const fn about(part: &'static str, what: &'static str, value: u64) -> Size {
     Size { part, what, value, estimated: true }
 }
 
-/// An iCE40 HX8K.
-const HX8K_LUTS: u64 = 7680;
+/// An iCE40 HX8K has 7680 logic cells; where these LUTs are, the others are taken by registers alone.
+const HX8K_LUTS: u64 = 5500;
 const HX8K_RAMS: u64 = 32;
 
 /// Whether a design with these sizes fits an iCE40 HX8K.

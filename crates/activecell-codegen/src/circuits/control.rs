@@ -16,6 +16,14 @@ pub(crate) const INPUTS: [(&str, Inputs, &str); 8] = [
     ("REVERSE", Inputs::REVERSE, "drive backwards"),
 ];
 
+/// The outputs q0 to q3.
+const OUTPUTS: [&str; 4] = [
+    "at rest",
+    "forwards, each wheel that does not roll back",
+    "the left wheel back, or steering to the left",
+    "the right wheel back, or steering to the right",
+];
+
 /// The control unit's logic, from [`TABLE`]: the next state and the outputs q0 to q3 of the present one.
 ///
 /// States that follow alike on every input share their formulas. The numbers 6 and 7, which are no states, act as calm,
@@ -79,7 +87,7 @@ pub fn control() -> Circuit {
         })
         .collect();
     circuit.output("next_state", Expr::Join(bits), "the state at the next step");
-    for (output, about) in ["calm", "drive", "wheels left", "wheels right"].iter().enumerate() {
+    for (output, about) in OUTPUTS.iter().enumerate() {
         let states: Vec<State> = State::ALL.into_iter().filter(|state| state.outputs()[output]).collect();
         circuit.output(&format!("q{output}"), is_one_of(&states), about);
     }

@@ -24,7 +24,8 @@ $(DESIGNS:%=example-%): example-%:
 	@mkdir -p build
 	@echo "$*: an example"
 	@$(IVERILOG) -g2005 -Wall -Wno-timescale -o build/$*_example.vvp -s $*_example_tb tb/$*_example_tb.v $($*_RTL)
-	@$(VVP) -n build/$*_example.vvp
+	@$(VVP) -n build/$*_example.vvp | tee build/$*_example.log
+	@! grep -q '^FAIL' build/$*_example.log
 
 $(DESIGNS:%=synth-%): synth-%:
 	@mkdir -p build

@@ -27,7 +27,9 @@ $(DESIGNS:%=example-%): example-%:
 	@echo "$*: an example"
 	@$(GHDL) -a $(FLAGS) $($*_RTL) tb/$*_example_tb.vhd
 	@$(GHDL) -e $(FLAGS) -o build/$@/$*_example_tb $*_example_tb
-	@$(GHDL) -r $(FLAGS) $*_example_tb --ieee-asserts=disable-at-0 2>&1 | sed 's/.*(report note): //'
+	@$(GHDL) -r $(FLAGS) $*_example_tb --ieee-asserts=disable-at-0 > build/$*_example.log 2>&1 \
+	    || { cat build/$*_example.log; false; }
+	@sed 's/.*(report note): //' build/$*_example.log
 
 # GHDL makes Verilog of the design, yosys gates of that. GHDL drops attributes, so yosys is told to take block RAM.
 $(DESIGNS:%=synth-%): synth-%:

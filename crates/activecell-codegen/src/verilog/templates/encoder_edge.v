@@ -16,12 +16,12 @@ module encoder_edge (
     // a pulse, so that only a new one counts.
     (* ASYNC_REG = "TRUE" *) reg first   = 1'b1;
     (* ASYNC_REG = "TRUE" *) reg settled = 1'b1;
-    reg before = 1'b1;
+    reg earlier = 1'b1;
 
-    assign tick = settled & ~before;
+    assign tick = settled & ~earlier;
 
     always @(posedge clk)
-        {before, settled, first} <= reset ? 3'b111 : {settled, first, pulse};
+        {earlier, settled, first} <= reset ? 3'b111 : {settled, first, pulse};
 endmodule
 
 `default_nettype wire

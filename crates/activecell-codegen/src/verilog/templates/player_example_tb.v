@@ -40,12 +40,12 @@ module player_example_tb;
 
     // What the robot does, and how long.
     reg [8*7-1:0] motion;
-    integer       before = 0; // ticks before this motion
+    integer       earlier = 0; // ticks before this motion
 
     always @(q) begin
-        if (ticks != before)
-            $display("    %0d ticks", ticks - before);
-        before = ticks;
+        if (ticks != earlier)
+            $display("    %0d ticks", ticks - earlier);
+        earlier = ticks;
         case (q)
 @CASES@
             default: begin

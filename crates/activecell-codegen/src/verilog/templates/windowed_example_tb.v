@@ -48,8 +48,11 @@ module windowed_example_tb;
             @(negedge clk);
             enable = 1'b0;
         end
-        $display("at (%0d,%0d): %0s", at_x, at_y,
-            arrived ? "arrived" : enclosed ? "enclosed" : "trapped");
+        if ((arrived | enclosed | trapped) === 1'b1)
+            $display("at (%0d,%0d): %0s", at_x, at_y,
+                arrived ? "arrived" : enclosed ? "enclosed" : "trapped");
+        else
+            $display("FAIL example: the memories have no map; run it in the folder above rtl");
         $finish;
     end
 endmodule

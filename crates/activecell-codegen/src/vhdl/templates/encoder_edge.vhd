@@ -21,13 +21,13 @@ architecture rtl of encoder_edge is
     -- a pulse, so that only a new one counts.
     signal first   : std_logic := '1';
     signal settled : std_logic := '1';
-    signal before  : std_logic := '1';
+    signal earlier : std_logic := '1';
 
     attribute ASYNC_REG : string;
     attribute ASYNC_REG of first   : signal is "TRUE";
     attribute ASYNC_REG of settled : signal is "TRUE";
 begin
-    tick <= settled and not before;
+    tick <= settled and not earlier;
 
     sample : process (clk)
     begin
@@ -35,11 +35,11 @@ begin
             if reset = '1' then
                 first   <= '1';
                 settled <= '1';
-                before  <= '1';
+                earlier <= '1';
             else
                 first   <= pulse;
                 settled <= first;
-                before  <= settled;
+                earlier <= settled;
             end if;
         end if;
     end process sample;

@@ -179,8 +179,8 @@ int main(void)
     robot.cell = from;
     robot.heading_at = AC_PROGRAM_HEADING;
     end = travel(from, AC_PROGRAM_HEADING, target);
-    printf("robot: %s after %lu cells, %lu ticks and %lu unknown obstacles\n",
-           (end == AC_ARRIVED) ? "arrived" : "FAIL: did not arrive", (unsigned long)robot.moves,
-           (unsigned long)robot.rolled, (unsigned long)robot.met);
+    printf("%s after %lu cells, %lu ticks forwards; obstacles that were not on the map: %lu\n",
+           (end == AC_ARRIVED) ? "PASS: the robot arrived" : "FAIL: the robot did not arrive",
+           (unsigned long)robot.moves, (unsigned long)robot.rolled, (unsigned long)robot.met);
     return ((end == AC_ARRIVED) && (robot.cell.x == target.x) && (robot.cell.y == target.y)) ? 0 : 1;
 }
