@@ -5,8 +5,9 @@ use super::module;
 use crate::colours::{Colours, goes, leads};
 use crate::images::bits_below;
 use crate::template::fill;
+use crate::window::Offset;
 use crate::{SourceFile, circuits};
-use activecell::{Cell, Dir, Error, Lattice, Map};
+use activecell::{Dir, Error, Lattice, Map};
 
 /// The most cells that a fabric may have; larger maps do not fit into the FPGAs that this is for.
 pub const MAX_FABRIC_CELLS: u64 = 4096;
@@ -165,14 +166,14 @@ fn lanes(lattice: Lattice, wire: impl Fn(&str, Dir) -> String) -> String {
 
 /// The column and row of a neighbour of (x, y), from the core's offsets in even and odd rows.
 pub(crate) fn neighbour(lattice: Lattice, dir: Dir) -> [String; 2] {
-    let [even, odd] = [0, 1].map(|y| lattice.neighbour(Cell::new(0, y), dir));
-    let shift = if odd.x == even.x { "" } else { " + ODD" };
+    let Offset { columns: [even, odd], rows } = Offset::of_dir(lattice, dir);
+    let shift = if odd == even { "" } else { " + ODD" };
     let offset = |step: i32| match step {
         0 => String::new(),
         step if step < 0 => format!(" - {}", -step),
         step => format!(" + {step}"),
     };
-    [format!("x{}{shift}", offset(even.x)), format!("y{}", offset(even.y))]
+    [format!("x{}{shift}", offset(even)), format!("y{}", offset(rows))]
 }
 
 /// Which moves the robot's colours tell, and where these lead.

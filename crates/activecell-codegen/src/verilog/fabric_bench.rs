@@ -9,9 +9,25 @@ use activecell::{Cell, Map, Rng};
 /// Tasks between free cells on a map.
 const TASKS: usize = 20;
 
-/// The bench and its clocks: tasks between free cells, one that cannot be, one cut short; a loadable fabric
+/// The bench and its clocks.
+pub(super) fn bench(map: &Map, loadable: bool) -> [SourceFile; 2] {
+    let (trace, clocks) = trace(map, loadable);
+    let loading = "        .load_map(line[78]),\n        .scan_in(line[77]),\n        .scan_out(),\n";
+    let [columns, rows] = [map.width(), map.height()].map(bits_below);
+    let values = [
+        ("CLOCKS", clocks.to_string()),
+        ("COLUMN_BITS", columns.to_string()),
+        ("COLUMN_TOP", (columns - 1).to_string()),
+        ("ROW_BITS", rows.to_string()),
+        ("ROW_TOP", (rows - 1).to_string()),
+        ("LOADING", if loadable { loading.into() } else { String::new() }),
+    ];
+    [SourceFile::new("tb/fabric_tb.v", fill(include_str!("templates/fabric_tb.v"), &values)), trace]
+}
+
+/// What the benches of both languages read, and its clocks: tasks between free cells, one that cannot be, one cut short; a loadable fabric
 /// begins without a map, and does the same on an empty map after that, which it loads while it is at a task.
-pub(crate) fn bench(map: &Map, loadable: bool) -> [SourceFile; 2] {
+pub(crate) fn trace(map: &Map, loadable: bool) -> (SourceFile, usize) {
     let fabric = if loadable { Fabric::unloaded(map) } else { Fabric::new(map) };
     let mut clocks = Clocks { fabric, lines: String::new(), count: 0 };
     for _ in 0..2 {
@@ -29,21 +45,7 @@ pub(crate) fn bench(map: &Map, loadable: bool) -> [SourceFile; 2] {
         clocks.load(|_, _| false, map);
         clocks.tasks(&free, map);
     }
-    let loading = "        .load_map(line[78]),\n        .scan_in(line[77]),\n        .scan_out(),\n";
-    let [columns, rows] = [map.width(), map.height()].map(bits_below);
-    let values = [
-        ("CLOCKS", clocks.count.to_string()),
-        ("COLUMN_BITS", columns.to_string()),
-        ("COLUMN_TOP", (columns - 1).to_string()),
-        ("ROW_BITS", rows.to_string()),
-        ("ROW_TOP", (rows - 1).to_string()),
-        ("LOADING", if loadable { loading.into() } else { String::new() }),
-    ];
-    let values = values.each_ref().map(|(name, value)| (*name, value.as_str()));
-    [
-        SourceFile::new("tb/fabric_tb.v", fill(include_str!("templates/fabric_tb.v"), &values)),
-        SourceFile::new("tb/fabric.hex", clocks.lines),
-    ]
+    (SourceFile::new("tb/fabric.hex", clocks.lines), clocks.count)
 }
 
 struct Clocks {

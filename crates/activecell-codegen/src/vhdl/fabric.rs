@@ -43,8 +43,7 @@ pub fn fabric(map: &Map, loadable: bool) -> Result<Vec<SourceFile>, Error> {
         bench_lines(),
         filled("tb/fabric_tb.vhd".into(), include_str!("templates/fabric_tb.vhd")),
     ]);
-    let [_, trace] = verilog::fabric_bench(map, loadable);
-    files.push(trace);
+    files.push(verilog::fabric_trace(map, loadable).0);
     Ok(files)
 }
 
